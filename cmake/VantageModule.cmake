@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+# vantage_module(NAME SOURCES a.cpp b.cpp DEPENDS base geometry LIBRARIES TBB::tbb)
+#   One library a folder. Its sources are listed, its tests are every *_test.cpp beside them (one program a module).
+
+add_library(vantage_flags INTERFACE)
+target_compile_features(vantage_flags INTERFACE cxx_std_20)
+# Same bits everywhere: no contraction into fused operations, no fast-math, no -march.
+target_compile_options(vantage_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+target_include_directories(vantage_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(vantage_flags SYSTEM INTERFACE $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
+target_compile_definitions(vantage_flags INTERFACE VANTAGE_VERSION="${PROJECT_VERSION}")
+
+# Heavy standard headers and Eigen, parsed once.
+add_library(vantage_pch STATIC ${PROJECT_SOURCE_DIR}/cmake/pch.cpp)
+target_link_libraries(vantage_pch PRIVATE vantage_flags)
+target_precompile_headers(vantage_pch PRIVATE <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <span> <string> <variant> <vector>)
+
+function(vantage_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  add_library(vantage_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(vantage_${name} PUBLIC vantage_flags PRIVATE ${ARG_LIBRARIES})
+  foreach(dependency IN LISTS ARG_DEPENDS)
+    target_link_libraries(vantage_${name} PUBLIC vantage_${dependency})
+  endforeach()
+  target_precompile_headers(vantage_${name} REUSE_FROM vantage_pch)
+
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  if(VANTAGE_TESTS AND tests)
+    add_executable(${name}_test ${tests})
+    target_link_libraries(${name}_test PRIVATE vantage_${name} ${ARG_LIBRARIES} GTest::gtest_main)
+    target_precompile_headers(${name}_test REUSE_FROM vantage_pch)
+    gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
+  endif()
+endfunction()

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+
+#include "vantage/base/options.h"
+
+namespace vantage {
+
+/// The visibility metric E and how its maximum is searched (paper Eq. 1, Sec. III-A). The defaults are the best variant measured; the paper's
+/// own formulas, as repaired or as printed, are options, so that the differences can be measured.
+struct PlannerOptions {
+  enum class Metric { ray, boundary } metric = Metric::ray;  ///< March rays to the shadow boundary, or sum over its elements.
+
+  // Ray form: a sum of terms, each divided by its maximum over the candidates.
+  double volume_weight = 1.0;       ///< Expected new volume.
+  double solid_angle_weight = 0.3;  ///< Solid angle of the shadow boundary in view.
+  double area_weight = 0.0;         ///< Eq. (1) with line of sight and tau = 1.
+  double lambda_factor = 2.0;       ///< Opacity of the unseen, in units of the measured A/(4V) (2D: A/(pi V)); 0: optimistic.
+  bool learned = true;              ///< Weigh faces by the learned probability to open; false: hard masks.
+  std::int64_t rays = 400;          ///< First look at every candidate.
+  std::int64_t refine_rays = 4000;  ///< Second look at the best (2D: a quarter of it).
+  std::int64_t refine = 16;         ///< How many are looked at twice.
+
+  // Boundary sum.
+  enum class Elements { faces, smeared, printed } elements = Elements::faces;  ///< printed: delta without pi.
+  enum class Facing { seen, behind, absolute } facing = Facing::seen;          ///< behind: as printed.
+  enum class Mask { both, known, none } mask = Mask::both;                     ///< Which elements are shadow boundary; none: omega_O as printed, identically 1.
+  bool normalise = true;                                                       ///< Divide by |z - y|; false: as printed.
+  bool line_of_sight = true;                                                   ///< Eq. (1) has none.
+  double tau_power = 0.0;                                                      ///< tau = r^-p; 0 is the paper's.
+
+  // Candidates.
+  std::int64_t candidates = 500;  ///< At most (2D: twice as many; boundary metric without line of sight: all medial nodes up to 20 times).
+  double curvature = 0.5;         ///< M in -lap(psi) > M/h.
+  bool printed_curvature = false; ///< lap(psi) > M/h, as printed.
+  double clearance = 0.5;         ///< Of a vantage point and of the path to known obstacles [m].
+
+  // Stop.
+  double stop_volume = 2e-4;      ///< Expected new volume as a share of the seen volume, twice in a row.
+  std::int64_t idle_limit = 30;   ///< Picks in a row that gained nothing.
+  double report_volume = 0.0;     ///< Unseen regions below this are not listed [m^Dim]; 0: ten lattice cells.
+};
+
+void describe(PlannerOptions& options, const OptionVisitor& visit);
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vantage/explore/record.h"
+#include "vantage/field/field.h"
+#include "vantage/geometry/patch.h"
+#include "vantage/surface/surface.h"
+
+namespace vantage {
+
+/// Everything the report shows of a run.
+template <int Dim>
+struct ReportInput {
+  std::string scene;                                           ///< "town"
+  std::string command;                                         ///< "vantage explore town"
+  std::vector<std::pair<std::string, std::string>> settings;   ///< Name and value with unit, for the table at the end.
+  Box<Dim> domain;
+  std::vector<std::vector<Vec<Dim>>> scan_points;              ///< Hits per scan [m].
+  std::vector<Patch<Dim>> patches;
+  Field<Dim, NodeState> state;
+  std::vector<Vec<Dim>> path;                                  ///< Through the vantage points, in order.
+  std::vector<StepRecord<Dim>> steps;
+  std::vector<Snapshot<Dim>> snapshots;
+  Verdict<Dim> verdict;
+  SurfaceStatistics surface;
+};
+
+/// One self-contained HTML page (no network, pictures inline).
+template <int Dim>
+[[nodiscard]] std::string render_report(const ReportInput<Dim>& input);
+
+}  // namespace vantage

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "vantage/base/options.h"
+#include "vantage/geometry/patch.h"
+
+namespace vantage {
+
+/// Hausdorff tree (paper Sec. IV, after DeVore et al. [5]).
+struct SurfaceOptions {
+  double eta = 0.1;             ///< Hausdorff tolerance of a fit [m].
+  std::int64_t min_points = 0;  ///< Fewest points in a fitted cell; 0 means Dim + 2, the paper's five in 3D.
+  std::int64_t max_depth = 14;  ///< Deepest cell; the root has depth 0.
+  bool paper = false;           ///< The paper's own behaviour: small cells dropped, best fit kept at the depth limit.
+};
+
+void describe(SurfaceOptions& options, const OptionVisitor& visit);
+
+/// By the names of the paper's Table I. A split makes all 2^Dim children, so leaves = (2^Dim - 1) * inner nodes + 1.
+struct SurfaceStatistics {
+  std::int64_t points = 0;        ///< Held by the tree.
+  std::int64_t outside = 0;       ///< Left out: outside the domain of interest.
+  std::int64_t not_finite = 0;    ///< Left out: NaN or infinite.
+  int depth = 0;
+  std::int64_t nodes = 0, leaves = 0;
+  std::int64_t fits = 0;          ///< Polygons in 3D, segments in 2D.
+  std::int64_t segments = 0;      ///< Rank-1 fits in 3D.
+  std::int64_t loose_points = 0;  ///< Measured points kept as themselves.
+  double eta = 0.0;               ///< [m]
+  double data_to_surface = 0.0;   ///< Certified upper bound, all points [m].
+  double surface_to_data = 0.0;   ///< Certified upper bound, all patches [m].
+  [[nodiscard]] double certified() const { return data_to_surface > surface_to_data ? data_to_surface : surface_to_data; }
+};
+
+/// What an insertion changed.
+template <int Dim>
+struct SurfaceUpdate {
+  std::int64_t points = 0;  ///< Accepted.
+  Box<Dim> changed;         ///< Covers every patch that came or went.
+};
+
+/// Surfaces within eta of every measured point, kept up to date as scans arrive. The tree depends only on the set of points: not on their
+/// order, the order of insertions, or the number of threads, bit for bit.
+template <int Dim>
+  requires SpatialDim<Dim>
+class HausdorffTree {
+ public:
+  /// The domain of interest is the smallest cube that shares `domain`'s centre and covers it. Throws bad_input for a bad option or an empty box.
+  HausdorffTree(const Box<Dim>& domain, const SurfaceOptions& options);
+  ~HausdorffTree();
+  HausdorffTree(HausdorffTree&&) noexcept;
+  HausdorffTree& operator=(HausdorffTree&&) noexcept;
+
+  /// Adds measured points, (N, Dim) [m] (Sec. IV-A with its slips mended). Cost follows the touched cells.
+  SurfaceUpdate<Dim> insert(std::span<const Vec<Dim>> points);
+  /// Takes points out again, as if they had never been added. Points that are not there are ignored.
+  SurfaceUpdate<Dim> remove(std::span<const Vec<Dim>> points);
+
+  /// All patches in the order of the cells (Morton).
+  [[nodiscard]] std::vector<Patch<Dim>> patches() const;
+  /// Those of cells that meet `box`.
+  [[nodiscard]] std::vector<Patch<Dim>> patches(const Box<Dim>& box) const;
+  [[nodiscard]] SurfaceStatistics statistics() const;
+  [[nodiscard]] const SurfaceOptions& options() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vantage
