@@ -213,10 +213,10 @@ Patch<Dim> loose_patch(const Site<Dim>& site, const FitRules<Dim>& rules) {
   return patch;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                                       \
-  template std::optional<Patch<D>> fit_flat<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&, const Cell<D>*);                       \
-  template std::optional<CellFit<D>> fit_cell<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                                      \
-  template CellFit<D> fit_at_limit<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                                                \
+#define VANTAGE_INSTANTIATE(D)                                                                                                 \
+  template std::optional<Patch<D>> fit_flat<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&, const Cell<D>*); \
+  template std::optional<CellFit<D>> fit_cell<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                \
+  template CellFit<D> fit_at_limit<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                           \
   template Patch<D> loose_patch<D>(const Site<D>&, const FitRules<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
