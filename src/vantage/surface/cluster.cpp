@@ -8,6 +8,9 @@ namespace {
 
 constexpr std::size_t kSample = 128;  ///< The pieces are found on at most so many points.
 constexpr int kRounds = 4;
+constexpr double kProgress = 0.8;        ///< A round that thins the pieces by less is the last.
+constexpr std::size_t kQueries = 48;     ///< Places asked for a hole.
+constexpr double kClearHole = 1.1;       ///< The pieces of a sample are not quite those of all: so much wider than the limit must a hole be.
 constexpr double kOutside = 1.0 / 64.0;  ///< Weight of the squared distance beyond a piece's box, against that off its plane.
 
 /// Piece of a plane: a frame, and the box of its points in it.
@@ -79,6 +82,20 @@ int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, dou
 }
 
 template <int Dim>
+bool shows_hole(std::span<const Site<Dim>> sample, std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Frame<Dim>& frame,
+                const Snap<Dim>& snap, double radius) {
+  const Box<Dim> box = cell.box(snap.step());
+  const std::size_t queries = std::min(kQueries, sites.size() / 16);
+  for (std::size_t i = 0; i + 1 < sample.size() && i < queries; ++i) {
+    const Vec<Dim> middle = 0.5 * (snap.local(sample[i]) + snap.local(sample[i + 1]));
+    const Vec<Dim> normal = frame.axes.col(Dim - 1);
+    const Vec<Dim> foot = middle - normal * normal.dot(middle - frame.origin);
+    if (box.contains(foot) && is_empty_ball<Dim>(sites, cell, foot / snap.step(), radius / snap.step())) return true;
+  }
+  return false;
+}
+
+template <int Dim>
 std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules,
                                           const Frame<Dim>& frame, int axis) {
   const std::size_t stride = (sites.size() + kSample - 1) / kSample;
@@ -86,9 +103,14 @@ std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, cons
   for (std::size_t i = 0; i < sites.size(); i += stride) sample.push_back(sites[i]);
 
   Clusters<Dim> clusters = divide<Dim>(sample, [&](const Site<Dim>& site) { return frame.local(rules.snap.local(site))[axis] > 0.0; });
+  double last = kInfinity;
   for (int round = 0;; ++round) {
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     const Piece<Dim> first(clusters[0], cell, rules.snap), second(clusters[1], cell, rules.snap);
+    const double thickness = std::max(first.thickness(), second.thickness());
+    const bool thin = thickness <= 2.0 * rules.limit;
+    if (!thin && thickness > kProgress * last) return std::nullopt;
+    last = thickness;
     const auto nearer_second = [&](const Site<Dim>& site) {
       const Vec<Dim> p = rules.snap.local(site);
       return second.cost(p) < first.cost(p);
@@ -99,15 +121,20 @@ std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, cons
       clusters = std::move(next);
       continue;
     }
-    if (std::max(first.thickness(), second.thickness()) > 2.0 * rules.limit) return std::nullopt;
-    if (stride > 1) clusters = divide<Dim>(sites, nearer_second);
+    if (!thin) return std::nullopt;
+    if (stride == 1) return clusters;
+    const Clusters<Dim> spread = divide<Dim>(spread_sample<Dim>(sites, cell), nearer_second);
+    if (shows_hole<Dim>(spread[0], sites, cell, first.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
+    if (shows_hole<Dim>(spread[1], sites, cell, second.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
+    clusters = divide<Dim>(sites, nearer_second);
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     return clusters;
   }
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                                                              \
-  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&); \
+  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&);                                          \
+  template bool shows_hole<D>(std::span<const Site<D>>, std::span<const Site<D>>, const Cell<D>&, const Frame<D>&, const Snap<D>&, double); \
   template std::optional<Clusters<D>> two_clusters<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -201,10 +201,13 @@ std::optional<CellFit<Dim>> fit_cell(std::span<const Site<Dim>> sites, const Cel
     if (parts == 2) return fit_clusters<Dim>(clusters, cell, rules);
   }
   const Frame<Dim> frame = frame_of<Dim>(sites, cell, rules);
-  if (const auto one = fit_flat<Dim>(sites, frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
+  const bool hole = sites.size() > kFewSites && shows_hole<Dim>(spread_sample<Dim>(sites, cell), sites, cell, frame, rules.snap, rules.limit);
+  if (!hole)
+    if (const auto one = fit_flat<Dim>(sites, frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
   for (int axis = 0; axis < Dim; ++axis)
-    if (const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis))
-      if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
+    if (frame.variance[axis] > kThin * kThin * rules.limit * rules.limit)
+      if (const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis))
+        if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
   return std::nullopt;
 }
 

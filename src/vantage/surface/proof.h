@@ -38,10 +38,6 @@ class Proof {
   bool find_islands(std::span<const Site<Dim>> sample, std::span<const Site<Dim>> sites, const Cell<Dim>& cell, double tolerance);
 };
 
-/// Is there no site within `radius` of `center`? `sites` are those of `cell`, in Morton order; lengths are in steps. Cost follows the ball, not the cell.
-template <int Dim>
-[[nodiscard]] bool is_empty_ball(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Vec<Dim>& center, double radius);
-
 /// Least distance between two parallel planes (lines) with the simplex between them.
 template <int Dim>
 [[nodiscard]] double width(const std::array<Vec<Dim>, Dim + 1>& simplex);

@@ -48,6 +48,14 @@ class Snap {
   double step_ = 0.0;
 };
 
+/// A site's coordinates in steps.
+template <int Dim>
+[[nodiscard]] Vec<Dim> lattice_place(const Site<Dim>& site) {
+  Vec<Dim> p;
+  for (int a = 0; a < Dim; ++a) p[a] = static_cast<double>(site[a]);
+  return p;
+}
+
 /// Along the Morton curve.
 template <int Dim>
 void sort_sites(std::vector<Site<Dim>>& sites);
@@ -83,5 +91,14 @@ struct Cell {
   /// Cuts sorted sites of the cell at its children.
   [[nodiscard]] std::array<std::span<const Site<Dim>>, kChildren> split(std::span<const Site<Dim>> sites) const;
 };
+
+/// Is there no site within `radius` of `center`? `sites` are those of `cell`, in Morton order; lengths are in steps. Cost follows the ball, not the
+/// cell.
+template <int Dim>
+[[nodiscard]] bool is_empty_ball(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Vec<Dim>& center, double radius);
+
+/// First and middle sites of the cell's grandchildren (spread over the cell, however dense the sites), those of neighbours far apart in the order.
+template <int Dim>
+[[nodiscard]] std::vector<Site<Dim>> spread_sample(std::span<const Site<Dim>> sites, const Cell<Dim>& cell);
 
 }  // namespace vantage
