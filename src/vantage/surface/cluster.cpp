@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kSample = 128;  ///< The pieces are found on at most so many points.
+constexpr std::size_t kSample = 128;  ///< More points than these are represented by a spread sample.
 constexpr int kRounds = 4;
 constexpr double kProgress = 0.8;        ///< A round that thins the pieces by less is the last.
 constexpr std::size_t kQueries = 48;     ///< Places asked for a hole.
@@ -20,7 +20,7 @@ struct Piece {
   Vec<Dim> low, high;
 
   Piece(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Snap<Dim>& snap)
-      : frame(principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), cell.low, snap.step())), low(Vec<Dim>::Constant(kInfinity)), high(-low) {
+      : frame(principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), snap.step())), low(Vec<Dim>::Constant(kInfinity)), high(-low) {
     for (const Site<Dim>& site : sites) {
       const Vec<Dim> y = frame.local(snap.local(site));
       low = low.cwiseMin(y);
@@ -82,8 +82,8 @@ int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, dou
 }
 
 template <int Dim>
-bool shows_hole(std::span<const Site<Dim>> sample, std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Frame<Dim>& frame,
-                const Snap<Dim>& snap, double radius) {
+bool shows_hole(std::span<const Site<Dim>> sample, const SiteView<Dim>& sites, const Cell<Dim>& cell, const Frame<Dim>& frame, const Snap<Dim>& snap,
+                double radius) {
   const Box<Dim> box = cell.box(snap.step());
   const std::size_t queries = std::min(kQueries, sites.size() / 16);
   for (std::size_t i = 0; i + 1 < sample.size() && i < queries; ++i) {
@@ -96,11 +96,12 @@ bool shows_hole(std::span<const Site<Dim>> sample, std::span<const Site<Dim>> si
 }
 
 template <int Dim>
-std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules,
-                                          const Frame<Dim>& frame, int axis) {
-  const std::size_t stride = (sites.size() + kSample - 1) / kSample;
-  std::vector<Site<Dim>> sample;
-  for (std::size_t i = 0; i < sites.size(); i += stride) sample.push_back(sites[i]);
+std::optional<Clusters<Dim>> two_clusters(GatheredSites<Dim>& sites, const Cell<Dim>& cell, const FitRules<Dim>& rules, const Frame<Dim>& frame,
+                                          int axis) {
+  const bool few = sites.size() <= kSample;
+  std::vector<Site<Dim>> spread;
+  if (!few) spread = spread_sample<Dim>(sites.view(), cell);
+  const std::span<const Site<Dim>> sample = few ? sites.all() : std::span<const Site<Dim>>(spread);
 
   Clusters<Dim> clusters = divide<Dim>(sample, [&](const Site<Dim>& site) { return frame.local(rules.snap.local(site))[axis] > 0.0; });
   double last = kInfinity;
@@ -122,20 +123,19 @@ std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, cons
       continue;
     }
     if (!thin) return std::nullopt;
-    if (stride == 1) return clusters;
-    const Clusters<Dim> spread = divide<Dim>(spread_sample<Dim>(sites, cell), nearer_second);
-    if (shows_hole<Dim>(spread[0], sites, cell, first.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
-    if (shows_hole<Dim>(spread[1], sites, cell, second.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
-    clusters = divide<Dim>(sites, nearer_second);
+    if (few) return clusters;
+    if (shows_hole<Dim>(clusters[0], sites.view(), cell, first.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
+    if (shows_hole<Dim>(clusters[1], sites.view(), cell, second.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
+    clusters = divide<Dim>(sites.all(), nearer_second);
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     return clusters;
   }
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                              \
-  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&);                                          \
-  template bool shows_hole<D>(std::span<const Site<D>>, std::span<const Site<D>>, const Cell<D>&, const Frame<D>&, const Snap<D>&, double); \
-  template std::optional<Clusters<D>> two_clusters<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
+#define VANTAGE_INSTANTIATE(D)                                                                                                        \
+  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&);                                    \
+  template bool shows_hole<D>(std::span<const Site<D>>, const SiteView<D>&, const Cell<D>&, const Frame<D>&, const Snap<D>&, double); \
+  template std::optional<Clusters<D>> two_clusters<D>(GatheredSites<D>&, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
 

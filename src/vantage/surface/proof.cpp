@@ -34,7 +34,7 @@ bool in_general_position(std::span<const Vec<Dim>> chosen, const Vec<Dim>& next,
 
 template <int Dim>
   requires SpatialDim<Dim>
-std::unique_ptr<Proof<Dim>> Proof<Dim>::find(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, double tolerance) {
+std::unique_ptr<Proof<Dim>> Proof<Dim>::find(const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance) {
   const auto sample = spread_sample<Dim>(sites, cell);
   Proof proof;
   if (proof.find_islands(sample, sites, cell, tolerance) || proof.find_general(sample, tolerance)) return std::make_unique<Proof>(proof);
@@ -60,7 +60,7 @@ bool Proof<Dim>::find_general(std::span<const Site<Dim>> sample, double toleranc
 
 template <int Dim>
   requires SpatialDim<Dim>
-bool Proof<Dim>::find_islands(std::span<const Site<Dim>> sample, std::span<const Site<Dim>> sites, const Cell<Dim>& cell, double tolerance) {
+bool Proof<Dim>::find_islands(std::span<const Site<Dim>> sample, const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance) {
   int queries = 0;
   const int most_queries = static_cast<int>(std::min<std::size_t>(kQueries, sites.size() / 16));
   radius_ = 2.0 * tolerance;

@@ -68,41 +68,10 @@ std::array<std::span<const Site<Dim>>, Cell<Dim>::kChildren> Cell<Dim>::split(st
   return parts;
 }
 
-template <int Dim>
-bool is_empty_ball(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Vec<Dim>& center, double radius) {
-  if (sites.empty() || cell.box(1.0).distance(center) > radius) return true;
-  if (sites.size() <= 16 || cell.bits == 0)
-    return std::all_of(sites.begin(), sites.end(),
-                       [&](const Site<Dim>& site) { return (lattice_place<Dim>(site) - center).squaredNorm() > radius * radius; });
-  const auto parts = cell.split(sites);
-  for (int c = 0; c < Cell<Dim>::kChildren; ++c)
-    if (!is_empty_ball<Dim>(parts[c], cell.child(c), center, radius)) return false;
-  return true;
-}
-
-template <int Dim>
-std::vector<Site<Dim>> spread_sample(std::span<const Site<Dim>> sites, const Cell<Dim>& cell) {
-  std::vector<Site<Dim>> near, sample;
-  const auto parts = cell.split(sites);
-  for (int c = 0; c < Cell<Dim>::kChildren && cell.bits > 1; ++c)
-    for (const auto& part : cell.child(c).split(parts[c])) {
-      if (part.empty()) continue;
-      near.push_back(part[0]);
-      if (part.size() > 1) near.push_back(part[part.size() / 2]);
-    }
-  constexpr std::size_t kStride = 37;  // Prime to the number of sites below, which is made a multiple of 8 and is below 8 * 37.
-  const std::size_t round = (near.size() + 7) / 8 * 8;
-  for (std::size_t i = 0; i < round; ++i)
-    if (const std::size_t n = i * kStride % round; n < near.size()) sample.push_back(near[n]);
-  return sample;
-}
-
-#define VANTAGE_INSTANTIATE(D)                                                                     \
-  template class Snap<D>;                                                                          \
-  template void sort_sites<D>(std::vector<Site<D>>&);                                              \
-  template struct Cell<D>;                                                                         \
-  template bool is_empty_ball<D>(std::span<const Site<D>>, const Cell<D>&, const Vec<D>&, double); \
-  template std::vector<Site<D>> spread_sample<D>(std::span<const Site<D>>, const Cell<D>&);
+#define VANTAGE_INSTANTIATE(D)                        \
+  template class Snap<D>;                             \
+  template void sort_sites<D>(std::vector<Site<D>>&); \
+  template struct Cell<D>;
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
 

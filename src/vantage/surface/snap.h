@@ -92,13 +92,4 @@ struct Cell {
   [[nodiscard]] std::array<std::span<const Site<Dim>>, kChildren> split(std::span<const Site<Dim>> sites) const;
 };
 
-/// Is there no site within `radius` of `center`? `sites` are those of `cell`, in Morton order; lengths are in steps. Cost follows the ball, not the
-/// cell.
-template <int Dim>
-[[nodiscard]] bool is_empty_ball(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Vec<Dim>& center, double radius);
-
-/// First and middle sites of the cell's grandchildren (spread over the cell, however dense the sites), those of neighbours far apart in the order.
-template <int Dim>
-[[nodiscard]] std::vector<Site<Dim>> spread_sample(std::span<const Site<Dim>> sites, const Cell<Dim>& cell);
-
 }  // namespace vantage
