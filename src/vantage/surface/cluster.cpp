@@ -48,8 +48,8 @@ bool one_is_empty(const Clusters<Dim>& clusters) {
 }  // namespace
 
 template <int Dim>
-std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules, const Frame<Dim>& frame,
-                                          int axis) {
+std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules,
+                                          const Frame<Dim>& frame, int axis) {
   const std::size_t stride = (sites.size() + kSample - 1) / kSample;
   std::vector<Site<Dim>> sample;
   for (std::size_t i = 0; i < sites.size(); i += stride) sample.push_back(sites[i]);
@@ -75,7 +75,7 @@ std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, cons
   }
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                                       \
+#define VANTAGE_INSTANTIATE(D) \
   template std::optional<Clusters<D>> two_clusters<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

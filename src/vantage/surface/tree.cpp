@@ -156,8 +156,7 @@ bool Tree<Dim>::set_leaf(Node& node, const Cell<Dim>& cell, std::span<const Site
   }
   const auto same = [&](std::uint32_t a, std::uint32_t b) { return sites[a] == sites[b]; };
   fit.loose.erase(std::unique(fit.loose.begin(), fit.loose.end(), same), fit.loose.end());
-  if (!sites.empty())
-    node.leaf = std::make_unique<Leaf>(Leaf{{sites.begin(), sites.end()}, std::move(fit.patches), std::move(fit.loose), dropped});
+  if (!sites.empty()) node.leaf = std::make_unique<Leaf>(Leaf{{sites.begin(), sites.end()}, std::move(fit.patches), std::move(fit.loose), dropped});
   return true;
 }
 
