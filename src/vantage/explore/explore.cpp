@@ -173,7 +173,7 @@ Snapshot<Dim> Explorer<Dim>::Impl::snapshot() const {
   cut.next = decision.position;
   cut.has_next = decision.found;
   const Index<Dim> level = window.nearest(visited.back()).cwiseMax(0).cwiseMin((window.extent.array() - 1).matrix());
-  cut.height = Dim > 2 ? window.position(level)[Dim - 1] : 0.0;
+  cut.height = (Dim - 2) * window.position(level)[Dim - 1];
   Grid<2> plane{window.spacing, window.first.template head<2>(), window.extent.template head<2>()};
   cut.state = Field<2, NodeState>(plane);
   for (std::size_t i = 0; i < plane.size(); ++i) {
