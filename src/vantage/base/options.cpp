@@ -71,7 +71,8 @@ void Option::check(std::string_view full_name) const {
                                             const double degrees = *a.radians * kDegreesPerRadian;
                                             return degrees >= range.low * (1.0 - 1e-12) && degrees <= range.high * (1.0 + 1e-12);
                                           },
-                                          [](const auto&) { return true; }},
+                                          // Spelt out: a generic lambda would match `double*` better than `const double*` does.
+                                          [](const bool*) { return true; }, [](const Choice&) { return true; }},
                                value);
   require(good, fmt::format("{} = {}: must be {}", full_name, text(), allowed()));
 }
