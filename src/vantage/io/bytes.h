@@ -3,14 +3,11 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace vantage {
-
-/// The whole file. Throws io.
-[[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 /// CRC-32 (that of zlib and PNG); `start` continues an earlier one.
 [[nodiscard]] std::uint32_t checksum(std::string_view bytes, std::uint32_t start = 0);

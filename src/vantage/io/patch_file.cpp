@@ -6,8 +6,9 @@
 #include <algorithm>
 
 #include "vantage/base/error.h"
+#include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
-#include "vantage/io/ply.h"
+#include "vantage/io/ply_file.h"
 
 namespace vantage {
 namespace {

@@ -7,9 +7,10 @@
 #include <fstream>
 
 #include "vantage/base/error.h"
+#include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
 #include "vantage/io/patch_file.h"
-#include "vantage/io/ply.h"
+#include "vantage/io/ply_file.h"
 #include "vantage/io/point_cloud_file.h"
 #include "vantage/io/vti.h"
 #include "vantage/session/run_folder.h"

@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "vantage/base/error.h"
+#include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
 
 namespace vantage {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vantage/io/ply.h"
+#include "vantage/io/ply_file.h"
 
 #include <fmt/format.h>
 
