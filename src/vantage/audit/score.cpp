@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/audit/score.h"
 
+#include "vantage/audit/coverage.h"
+
 namespace vantage {
 namespace {
 
