@@ -51,6 +51,11 @@ ConvexRegion<1>::Place ConvexRegion<1>::closest(const Place& p) const {
 }
 
 template <>
+ConvexRegion<1>::Place ConvexRegion<1>::edge_normal(int i) const {
+  return Place(i == 0 ? -1.0 : 1.0);
+}
+
+template <>
 ConvexRegion<1> outline<1>(const Feet<1>& feet) {
   const auto [low, high] = std::minmax_element(feet.at[0].begin(), feet.at[0].end());
   return ConvexRegion<1>::box(ConvexRegion<1>::Place(*low), ConvexRegion<1>::Place(*high));

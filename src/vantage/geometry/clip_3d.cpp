@@ -82,6 +82,13 @@ double ConvexRegion<2>::measure() const {
 }
 
 template <>
+Place ConvexRegion<2>::edge_normal(int i) const {
+  const Place edge = vertices[(i + 1) % count] - vertices[i];
+  const double length = edge.norm();
+  return length > 0.0 ? Place(edge[1] / length, -edge[0] / length) : Place(Place::Zero());
+}
+
+template <>
 ConvexRegion<2> outline<2>(const Feet<2>& feet) {
   Place low = Place::Constant(kInfinity), high = -low, low_diagonal = low, high_diagonal = high;
   for (std::size_t i = 0; i < feet.size(); ++i) {

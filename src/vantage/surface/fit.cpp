@@ -12,6 +12,8 @@ namespace {
 
 /// Points with an extent below this share of the limit have none in that axis.
 constexpr double kThin = 0.5;
+/// So many sites are asked whether they hang together, in quadratic time.
+constexpr std::size_t kFewSites = 128;
 
 float rounded_up(double value) {
   const float near = static_cast<float>(value);
@@ -164,6 +166,19 @@ Frame<Dim> frame_of(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, con
   return principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), cell.low, rules.snap.step());
 }
 
+/// Each cluster its own patch.
+template <int Dim>
+std::optional<CellFit<Dim>> fit_clusters(const Clusters<Dim>& clusters, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+  CellFit<Dim> fit;
+  for (const std::vector<Site<Dim>>& cluster : clusters) {
+    if (rules.paper && static_cast<std::int64_t>(cluster.size()) < rules.min_points) return std::nullopt;
+    const auto patch = fit_flat<Dim>(cluster, frame_of<Dim>(cluster, cell, rules), rules, nullptr);
+    if (!patch) return std::nullopt;
+    fit.patches.push_back(*patch);
+  }
+  return fit;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -179,20 +194,17 @@ std::optional<Patch<Dim>> fit_flat(std::span<const Site<Dim>> sites, const Frame
 
 template <int Dim>
 std::optional<CellFit<Dim>> fit_cell(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+  if (sites.size() <= kFewSites) {
+    Clusters<Dim> clusters;
+    const int parts = connected_parts<Dim>(sites, rules.snap, 2.0 * rules.limit * (1.0 + 1e-9), clusters);
+    if (parts >= 3) return std::nullopt;
+    if (parts == 2) return fit_clusters<Dim>(clusters, cell, rules);
+  }
   const Frame<Dim> frame = frame_of<Dim>(sites, cell, rules);
   if (const auto one = fit_flat<Dim>(sites, frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
-  for (int axis = 0; axis < Dim; ++axis) {
-    const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis);
-    if (!clusters) continue;
-    CellFit<Dim> fit;
-    for (const std::vector<Site<Dim>>& cluster : *clusters) {
-      if (rules.paper && static_cast<std::int64_t>(cluster.size()) < rules.min_points) break;
-      const auto patch = fit_flat<Dim>(cluster, frame_of<Dim>(cluster, cell, rules), rules, nullptr);
-      if (!patch) break;
-      fit.patches.push_back(*patch);
-    }
-    if (fit.patches.size() == 2) return fit;
-  }
+  for (int axis = 0; axis < Dim; ++axis)
+    if (const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis))
+      if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
   return std::nullopt;
 }
 
