@@ -12,8 +12,8 @@ struct Projected {
 
 /// Largest size of a picture [pixels].
 struct Frame {
-  int width = 1400, height = 900;
-  double margin = 24.0;  ///< Kept free around the contents.
+  int width, height;
+  double margin;  ///< Kept free around the contents.
 };
 
 /// Looks at a box so that it fills the frame; the picture takes the contents' own proportions.

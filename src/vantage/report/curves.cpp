@@ -13,7 +13,7 @@ namespace vantage {
 namespace {
 
 constexpr double kWidth = 520.0, kHeight = 300.0;
-constexpr double kLeft = 58.0, kRight = 118.0, kTop = 14.0, kBottom = 46.0;
+constexpr double kLeft = 58.0, kRight = 96.0, kTop = 14.0, kBottom = 46.0;
 
 /// From values to the pixels of the chart.
 struct Axes {
@@ -85,12 +85,12 @@ std::string grid(const Chart& chart, const Axes& axes) {
   for (std::size_t i = 0; i < axes.y_ticks.size(); i += skip) {
     const double y = axes.py(axes.y_ticks[i]);
     svg += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", kLeft, y, kWidth - kRight);
-    svg += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" dy=\".35em\" text-anchor=\"end\">{}</text>", kLeft - 8.0, y, number(axes.y_ticks[i]));
+    svg += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" dy=\".35em\" text-anchor=\"end\">{}</text>", kLeft - 8.0, y, rounded(axes.y_ticks[i]));
   }
   for (const double tick : axes.x_ticks) {
     const double x = axes.px(tick);
     svg += fmt::format("<path class=\"axis\" d=\"M{0:.1f} {1:.1f}v5\"/><text class=\"tick\" x=\"{0:.1f}\" y=\"{2:.1f}\" text-anchor=\"middle\">{3}</text>", x,
-                       kHeight - kBottom, kHeight - kBottom + 20.0, number(tick));
+                       kHeight - kBottom, kHeight - kBottom + 20.0, rounded(tick));
   }
   svg += fmt::format("<path class=\"axis\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", kLeft, kHeight - kBottom, kWidth - kRight);
   svg += fmt::format("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", 0.5 * (kLeft + kWidth - kRight), kHeight - 6.0,
@@ -109,7 +109,7 @@ std::string drawn(const Chart& chart, const Curve& curve, const Axes& axes) {
     last = x;
     line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x, y);
     dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{} {}: {}</title></circle>", x, y, sparse ? "3" : "2", escaped(chart.x_label),
-                        number(curve.x[i]), escaped(quantity(curve.y[i], chart.unit)));
+                        rounded(curve.x[i]), escaped(quantity(curve.y[i], chart.unit)));
   }
   if (line.empty()) return {};
   std::string svg = fmt::format("<g class=\"curve\" style=\"--c:{}\">", curve.colour);
@@ -159,13 +159,16 @@ std::string chart_html(const Chart& chart) {
 }
 
 std::vector<double> round_ticks(double low, double high, int count) {
-  const double least = std::max((high - low) / std::max(count, 1), 1e-12);
-  double step = 1e-12;
-  for (int k = 0; step < least * 0.999 && k < 90; ++k) step *= k % 3 == 1 ? 2.5 : 2.0;
+  const double least = std::max((high - low) / std::max(count, 1), 1e-9) * 0.999;
+  // Steps below one are kept as their inverse, a whole number, so that 3 * 0.1 stays 0.3.
+  double step = 1.0, parts = 1.0;
+  for (int k = 0; step < least && k < 60; ++k) step *= k % 3 == 1 ? 2.5 : 2.0;
+  if (least < 1.0) {
+    for (int k = 0; k < 60 && 1.0 / (parts * (k % 3 == 1 ? 2.5 : 2.0)) >= least; ++k) parts *= k % 3 == 1 ? 2.5 : 2.0;
+  }
   std::vector<double> ticks;
-  const double first = std::floor(low / step + 1e-9), last = std::ceil(high / step - 1e-9);
-  for (double i = first; i <= last; i += 1.0) ticks.push_back(i * step);
-  if (ticks.size() < 2) ticks.push_back(ticks.front() + step);
+  const double first = std::floor(low / step * parts + 1e-9), last = std::ceil(high / step * parts - 1e-9);
+  for (double i = first; i <= std::max(last, first + 1.0); i += 1.0) ticks.push_back(i * step / parts);
   return ticks;
 }
 

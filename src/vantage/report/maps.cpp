@@ -13,8 +13,7 @@ namespace vantage {
 
 namespace {
 
-constexpr std::size_t kPanels = 8;
-constexpr Frame kPanelFrame{640, 640, 6.0};
+constexpr std::size_t kPanels = 9;
 constexpr double kDarkest = 0.16;    ///< Of the colour map, so that small E is told from none.
 constexpr int kSingleReach = 3;      ///< Half a lone node's square [pixels].
 
@@ -93,8 +92,8 @@ std::string height_text(const Snapshot<Dim>& snapshot) {
 }
 
 template <int Dim>
-Panel metric_panel(const Snapshot<Dim>& snapshot) {
-  const Camera camera = Camera::map(map_box(snapshot.state.window), kPanelFrame);
+Panel metric_panel(const Snapshot<Dim>& snapshot, const Frame& frame) {
+  const Camera camera = Camera::map(map_box(snapshot.state.window), frame);
   Panel panel{state_map(snapshot.state, camera, kDarkStates), {}, {}, {}};
   lay_over(panel.image, metric_map(snapshot.metric, snapshot.state, camera));
   panel.overlay = diamond_overlay(on_map<Dim>(snapshot.vantage, camera));
@@ -123,7 +122,7 @@ Image state_map(const Field<2, NodeState>& state, const Camera& camera, const St
     for (int x = 0; x < image.width; ++x) {
       const NodeState* under = state_under(state, camera, x, y);
       if (under == nullptr) continue;
-      const Rgb unseen = (x + y) % 8 < 2 ? colours.hatch : colours.unseen;
+      const Rgb unseen = (x + y) % 10 < 3 ? colours.hatch : colours.unseen;
       image.set(x, y, *under == NodeState::seen ? colours.seen : *under == NodeState::obstacle ? colours.obstacle : unseen);
     }
   });
@@ -158,7 +157,7 @@ std::vector<const Snapshot<Dim>*> chosen(const std::vector<Snapshot<Dim>>& snaps
 }
 
 template <int Dim>
-Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots) {
+Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const Frame& frame) {
   Figure figure;
   figure.id = "metric";
   figure.title = "Where it pays to look next";
@@ -169,7 +168,7 @@ Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots) {
                   legend_entry("cross", "", "next") + legend_entry("area", css(kDarkStates.obstacle), "obstacle") +
                   legend_entry("hatch", css(kDarkStates.unseen), "unseen") + legend_entry("area", css(kDarkStates.seen), "seen, E not asked");
   for (const Snapshot<Dim>* snapshot : chosen(snapshots)) {
-    if (snapshot->state.window.size() > 0) figure.panels.push_back(metric_panel(*snapshot));
+    if (snapshot->state.window.size() > 0) figure.panels.push_back(metric_panel(*snapshot, frame));
   }
   return figure;
 }
@@ -183,8 +182,8 @@ std::string place_text(const Vec<Dim>& p) {
 
 template std::vector<const Snapshot<2>*> chosen(const std::vector<Snapshot<2>>&);
 template std::vector<const Snapshot<3>*> chosen(const std::vector<Snapshot<3>>&);
-template Figure metric_figure(const std::vector<Snapshot<2>>&);
-template Figure metric_figure(const std::vector<Snapshot<3>>&);
+template Figure metric_figure(const std::vector<Snapshot<2>>&, const Frame&);
+template Figure metric_figure(const std::vector<Snapshot<3>>&, const Frame&);
 template std::string place_text<2>(const Vec<2>&);
 template std::string place_text<3>(const Vec<3>&);
 

@@ -68,12 +68,12 @@ std::string station_overlay(std::span<const Vec<2>> places, std::span<const int>
 
 std::string diamond_overlay(std::span<const Vec<2>> places) {
   std::string d;
-  for (const Vec<2>& p : places) d += fmt::format("M{:.1f} {:.1f}l7 7l-7 7l-7 -7Z", p.x(), p.y() - 7.0);
+  for (const Vec<2>& p : places) d += fmt::format("M{:.1f} {:.1f}l9 9l-9 9l-9 -9Z", p.x(), p.y() - 9.0);
   return d.empty() ? std::string() : "<path class=\"diamond\" d=\"" + d + "\"/>";
 }
 
 std::string cross_overlay(const Vec<2>& place) {
-  const std::string d = fmt::format("M{:.1f} {:.1f}l18 18m0 -18l-18 18", place.x() - 9.0, place.y() - 9.0);
+  const std::string d = fmt::format("M{:.1f} {:.1f}l24 24m0 -24l-24 24", place.x() - 12.0, place.y() - 12.0);
   return fmt::format("<path class=\"cross casing\" d=\"{0}\"/><path class=\"cross\" d=\"{0}\"/>", d);
 }
 
@@ -90,7 +90,7 @@ std::string scale_overlay(double pixels_per_metre, int width, int height) {
   const double x = 28.0, y = height - 26.0, end = x + length * pixels_per_metre;
   const std::string d = fmt::format("M{0:.1f} {2:.1f}v8H{1:.1f}v-8", x, end, y - 8.0);
   return fmt::format("<g class=\"scale\"><path class=\"casing\" d=\"{0}\"/><path d=\"{0}\"/><text x=\"{1:.1f}\" y=\"{2:.1f}\">{3}</text></g>", d,
-                     0.5 * (x + end), y - 9.0, quantity(length, "m"));
+                     0.5 * (x + end), y - 9.0, rounded(length) + "\u00a0m");
 }
 
 }  // namespace vantage

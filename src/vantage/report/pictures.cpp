@@ -76,7 +76,7 @@ std::string legend_bar(const std::string& gradient, const std::string& low, cons
   return fmt::format("<span class=\"key\">{}<i class=\"bar\" style=\"background:{}\"></i>{}</span>", low, gradient, high);
 }
 
-std::string journey_legend() { return legend_entry("dot", "", "vantage point with the number of its scan") + legend_entry("line", "", "way"); }
+std::string journey_legend() { return legend_entry("dot", "", "vantage point with the number of its scan") + legend_entry("line", "", "path"); }
 
 #define VANTAGE_INSTANTIATE(Dim)                                                                    \
   template Vec<3> in_space<Dim>(const Vec<Dim>&);                                                   \

@@ -12,8 +12,6 @@ namespace vantage {
 
 namespace {
 
-constexpr Frame kMapFrame{1400, 1100, 36.0};
-constexpr Frame kPanelFrame{640, 640, 6.0};
 constexpr Rgb kSurface{29, 95, 214}, kLoose{234, 120, 40};
 
 Box<3> flat(const Box<2>& box) { return {Vec<3>(box.low.x(), box.low.y(), 0.0), Vec<3>(box.high.x(), box.high.y(), 0.0)}; }
@@ -66,19 +64,19 @@ Figure path_figure(const ReportInput<2>& input, const Camera& camera) {
   lay_over(image, resolved(raster, {0.0}));
   double length = 0.0;
   for (const StepRecord<2>& step : input.steps) length += step.path_length;
-  Figure figure{"path", "The scans and the way", {}, {}, {}};
-  figure.caption = fmt::format("{} points of {}, coloured by the scan that measured them, and the vantage points in their order: {} of way in all.",
+  Figure figure{"path", "The scans and the path", {}, {}, {}};
+  figure.caption = fmt::format("{} points of {}, coloured by the scan that measured them, and the vantage points in their order: {} of path in all.",
                                number(static_cast<std::int64_t>(point_count(input))), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"),
                                quantity(length, "m"));
   figure.legend = legend_bar(css_gradient(ColourMap::viridis, 0.0, 0.9), "first scan", "last scan") + journey_legend();
   figure.panels.push_back({std::move(image), journey_overlay(input, camera) + map_scale(camera),
-                           "Map with the measured points, the numbered vantage points and the way between them.", {}});
+                           "Map with the measured points, the numbered vantage points and the path through them.", {}});
   return figure;
 }
 
 /// What the scans up to the snapshot's tell of the obstacles.
 Panel known_panel(const ReportInput<2>& input, const Snapshot<2>& snapshot) {
-  const Camera camera = Camera::map(map_box(snapshot.state.window), kPanelFrame);
+  const Camera camera = Camera::map(map_box(snapshot.state.window), panel_frame(input.picture_width));
   Raster raster(camera);
   for_drawn_points(input, [&](std::size_t scan, const Vec<2>& p) {
     if (scan < input.steps.size() && input.steps[scan].scan <= snapshot.step) raster.point(at(p, 0.0), 1.5, kSurface);
@@ -112,10 +110,10 @@ template <>
 std::vector<Figure> pictures(const ReportInput<2>& input) {
   std::vector<Figure> figures;
   if (input.domain.empty()) return figures;
-  const Camera camera = Camera::map(flat(input.domain), kMapFrame);
+  const Camera camera = Camera::map(flat(input.domain), map_frame(input.picture_width));
   if (!input.patches.empty() || input.state.window.size() > 0) figures.push_back(map_figure(input, camera));
   if (!input.steps.empty()) figures.push_back(path_figure(input, camera));
-  for (Figure figure : {known_figure(input), metric_figure(input.snapshots)}) {
+  for (Figure figure : {known_figure(input), metric_figure(input.snapshots, panel_frame(input.picture_width))}) {
     if (!figure.panels.empty()) figures.push_back(std::move(figure));
   }
   return figures;

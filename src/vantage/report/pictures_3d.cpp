@@ -7,6 +7,7 @@
 #include "vantage/report/maps.h"
 #include "vantage/report/overlay.h"
 #include "vantage/report/pictures.h"
+#include "vantage/report/solids.h"
 #include "vantage/report/text.h"
 #include "vantage/report/unseen_faces.h"
 
@@ -14,10 +15,7 @@ namespace vantage {
 
 namespace {
 
-constexpr Frame kMainFrame{1400, 980, 28.0};
-constexpr Frame kMapFrame{1400, 1100, 36.0};
-constexpr double kLowColour = 0.12, kHighColour = 1.0;  ///< Part of viridis that reads on light and dark grounds.
-constexpr Rgb kClay{226, 221, 210}, kWire{14, 148, 160}, kLoose{234, 120, 40};
+constexpr double kLowColour = 0.2, kHighColour = 1.0;  ///< Part of viridis that reads on light and dark grounds.
 
 /// What the pictures frame: all that was met and visited inside the domain.
 Box<3> contents(const ReportInput<3>& input) {
@@ -37,9 +35,9 @@ Box<3> contents(const ReportInput<3>& input) {
 }
 
 /// Looks along the longer side, from the south-west.
-Camera bird(const Box<3>& box) {
-  const double azimuth = box.size().x() >= box.size().y() ? 62.0 : 28.0;
-  return Camera::bird(box, radians(azimuth), radians(38.0), kMainFrame);
+Camera bird(const Box<3>& box, int width) {
+  const double azimuth = box.size().x() >= box.size().y() ? 66.0 : 24.0;
+  return Camera::bird(box, radians(azimuth), radians(38.0), {width, width * 7 / 10, 28.0});
 }
 
 /// Heights that leave out one in a hundred points at either end.
@@ -63,29 +61,6 @@ double point_radius(const ReportInput<3>& input, const Camera& camera) {
   return std::clamp(0.6 * std::sqrt(camera.width() * static_cast<double>(camera.height()) / drawn), 0.75, 3.0);
 }
 
-/// Sun over the viewer's left shoulder, and sky; both sides of a patch are alike.
-double light_on(const Patch<3>& patch, const Camera& camera) {
-  Vec<3> n = normal(patch);
-  if (n.dot(camera.forward()) > 0.0) n = -n;
-  const Vec<3> sun = (Vec<3>::UnitZ() * 1.1 - camera.forward() * 0.35 - camera.right() * 0.55).normalized();
-  return 0.5 + 0.4 * std::max(n.dot(sun), 0.0) + 0.1 * n.z();
-}
-
-/// Draws the patches up to a height, in the colours of their kinds or all in one.
-void draw_patches(Raster& raster, const ReportInput<3>& input, double cut, bool kinds) {
-  parallel_for(input.patches.size(), 256, [&](std::size_t i) {
-    const Patch<3>& patch = input.patches[i];
-    const Box<3> box = patch.bounds();
-    if (box.low.z() > cut || box.intersection(input.domain).empty()) return;
-    const auto corners = patch.corners();
-    switch (patch.rank()) {
-      case 0: raster.point(corners[0], kinds ? 1.3 : 0.8, kinds ? kLoose : scaled(kClay, 0.75)); break;
-      case 1: raster.segment(corners[0], corners[1], 2.0, kinds ? kWire : scaled(kClay, 0.7)); break;
-      default: raster.polygon(corners, scaled(kClay, light_on(patch, raster.camera())));
-    }
-  });
-}
-
 Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
   const auto [low, high] = height_range(input);
   Raster raster(camera);
@@ -97,7 +72,7 @@ Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
   Figure figure{"points", "Everything the scanner measured", {}, {}, {}};
   const std::size_t stride = point_stride(input);
   const std::string share = stride > 1 ? fmt::format(" Every {}th is drawn.", stride) : std::string();
-  figure.caption = fmt::format("{} points of {}, coloured by height, with the vantage points and the way between them.{}",
+  figure.caption = fmt::format("{} points of {}, coloured by height, with the vantage points and the path through them.{}",
                                number(static_cast<std::int64_t>(point_count(input))), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
   figure.legend = legend_bar(css_gradient(ColourMap::viridis, kLowColour, kHighColour), quantity(low, "m"), quantity(high, "m")) + journey_legend();
   figure.panels.push_back({resolved(raster, {0.8}), journey_overlay(input, camera),
@@ -107,7 +82,7 @@ Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
 
 Figure surface_figure(const ReportInput<3>& input, const Camera& camera) {
   Raster raster(camera);
-  draw_patches(raster, input, kInfinity, true);
+  draw_patches(raster, input.patches, input.domain, Colours::by_kind);
   Figure figure{"surface", "The surface rebuilt from the points", {}, {}, {}};
   figure.caption = fmt::format("{} flat pieces, {} thin ones and {} single points; no measured point is farther than {} from them.",
                                number(input.surface.fits), number(input.surface.segments), number(input.surface.loose_points),
@@ -135,7 +110,7 @@ Image unseen_image(const Raster& surfaces, const Raster& unseen) {
 
 Figure unseen_figure(const ReportInput<3>& input, const Camera& camera) {
   Raster surfaces(camera), unseen(camera);
-  draw_patches(surfaces, input, kInfinity, false);
+  draw_patches(surfaces, input.patches, input.domain, Colours::clay);
   draw_unseen(unseen, input.state);
   Figure figure{"unseen", "What stays unseen", {}, {}, {}};
   figure.caption =
@@ -148,28 +123,28 @@ Figure unseen_figure(const ReportInput<3>& input, const Camera& camera) {
   return figure;
 }
 
-/// Height above which the plan leaves surfaces out: a little over the median vantage point.
+/// Height of the plan's cut: that of the median vantage point.
 double plan_height(const ReportInput<3>& input) {
   std::vector<double> heights;
   for (const StepRecord<3>& step : input.steps) heights.push_back(step.vantage.z());
   if (heights.empty()) return kInfinity;
   std::sort(heights.begin(), heights.end());
-  return heights[heights.size() / 2] + 1.0;
+  return heights[heights.size() / 2];
 }
 
 Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
-  const Camera camera = Camera::map(box, kMapFrame);
+  const Camera camera = Camera::map(box, map_frame(input.picture_width));
   const double cut = plan_height(input);
   Raster raster(camera);
-  draw_patches(raster, input, cut, false);
+  draw_plan(raster, input.patches, input.domain, cut);
   double length = 0.0;
   for (const StepRecord<3>& step : input.steps) length += step.path_length;
-  Figure figure{"path", "The way", {}, {}, {}};
-  figure.caption = fmt::format("Plan with the vantage points in their order, {} of way in all; surfaces that lie above {} are left out.",
+  Figure figure{"path", "The path", {}, {}, {}};
+  figure.caption = fmt::format("Plan, cut at a height of {1}, with the vantage points in their order: {0} of path in all.",
                                quantity(length, "m"), quantity(cut, "m"));
-  figure.legend = journey_legend();
-  figure.panels.push_back({resolved(raster, {1.2}), journey_overlay(input, camera) + scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
-                           "Plan of the place with the numbered vantage points and the way between them.", {}});
+  figure.legend = journey_legend() + legend_entry("line", css(kSection), "wall at the cut");
+  figure.panels.push_back({resolved(raster, {0.0}), journey_overlay(input, camera) + scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
+                           "Plan of the place with the numbered vantage points and the path through them.", {}});
   return figure;
 }
 
@@ -180,12 +155,12 @@ std::vector<Figure> pictures(const ReportInput<3>& input) {
   std::vector<Figure> figures;
   if (input.domain.empty()) return figures;
   const Box<3> box = contents(input);
-  const Camera camera = bird(box);
+  const Camera camera = bird(box, input.picture_width);
   if (point_count(input) > 0) figures.push_back(points_figure(input, camera));
   if (!input.patches.empty()) figures.push_back(surface_figure(input, camera));
   if (input.state.window.size() > 0) figures.push_back(unseen_figure(input, camera));
   if (!input.steps.empty()) figures.push_back(path_figure(input, box));
-  Figure metric = metric_figure(input.snapshots);
+  Figure metric = metric_figure(input.snapshots, panel_frame(input.picture_width));
   if (!metric.panels.empty()) figures.push_back(std::move(metric));
   return figures;
 }

@@ -14,6 +14,7 @@ struct Size {
   double step = 3.0;        ///< Between rays [degrees].
   double piece = 4.0;       ///< Side of a patch [m].
   int boxes = 8, scans = 6;
+  int picture_width = 420;  ///< [pixels]
 };
 
 template <int Dim>
@@ -136,6 +137,7 @@ template <int Dim>
 ReportInput<Dim> run(const Size& size = {}) {
   ReportInput<Dim> input;
   input.scene = "sample";
+  input.picture_width = size.picture_width;
   input.command = "vantage explore sample";
   input.settings = {{"explore.voxel", fmt::format("{} m", size.spacing)}, {"surface.eta", "0.1 m"}, {"scan.step_deg", fmt::format("{}", size.step)}};
   const int rows = (size.boxes + 4) / 5;

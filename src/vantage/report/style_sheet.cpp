@@ -11,6 +11,10 @@ std::string style_sheet() {
   :root { --paper: #12151b; --card: #191d25; --plate: #0c0e13; --ink: #e9ecf2; --soft: #a3adbd; --faint: #2b313c; --grid: #262c36;
     --c1: #82aaff; --c2: #f0a35e; --c3: #5eccbc; --good: #5eccbc; --open: #f0a35e; --mark: #ff4d78; --halo: #0c0e13; }
 }
+@media (prefers-color-scheme: dark) {
+  #surface img, #unseen img, #path img, #known img { filter: brightness(.8); }
+  #points img { filter: brightness(1.3); }
+}
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; }
 body { margin: 0; background: var(--paper); color: var(--ink); font: 17px/1.6 ui-sans-serif, system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif;
@@ -29,11 +33,10 @@ h3 small { color: var(--soft); font-weight: 400; font-size: 14px; }
 .share { min-width: 200px; }
 .share strong { display: block; font-size: 52px; line-height: 1; letter-spacing: -.03em; font-weight: 700; color: var(--v); white-space: nowrap; }
 .share span { color: var(--soft); font-size: 14px; }
-.gauge { position: relative; height: 8px; margin: 28px 0 0; border-radius: 4px; background: var(--faint); overflow: hidden; }
+.gauge { position: relative; height: 6px; margin: 28px 0 0; border-radius: 4px; background: var(--faint); overflow: hidden; }
 .gauge i { position: absolute; top: 0; bottom: 0; left: 0; background: var(--v); }
 .gauge i.bounds { opacity: .4; }
-dl { display: grid; grid-template-columns: repeat(auto-fit, minmax(200px, 1fr)); gap: 1px; margin: 44px 0 0; padding: 1px 0; background: var(--faint); }
-dl div { padding: 18px 20px 18px 0; background: var(--paper); }
+dl { display: grid; grid-template-columns: repeat(auto-fit, minmax(180px, 1fr)); gap: 28px 32px; margin: 44px 0 0; padding: 26px 0; border-block: 1px solid var(--faint); }
 dt { color: var(--soft); font-size: 14px; }
 dd { margin: 2px 0 0; font-size: 25px; font-weight: 640; line-height: 1.25; letter-spacing: -.01em; }
 dd small { display: block; color: var(--soft); font-size: 14px; font-weight: 400; letter-spacing: 0; line-height: 1.4; }
@@ -43,8 +46,8 @@ figure { margin: 0; }
 .stage img { display: block; width: 100%; height: auto; }
 .stage svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 .panels { display: grid; gap: 28px 20px; }
-.many .panels { grid-template-columns: repeat(auto-fill, minmax(250px, 1fr)); }
-.many .stage { border-radius: 8px; }
+.many .panels { grid-template-columns: repeat(auto-fill, minmax(300px, 1fr)); }
+.many .stage { border-radius: 8px; outline: 1px solid var(--faint); }
 .panel p { margin: 8px 0 0; color: var(--soft); font-size: 14px; line-height: 1.45; }
 figcaption { margin-top: 14px; color: var(--soft); font-size: 15px; max-width: 62em; }
 .legend { display: flex; flex-wrap: wrap; gap: 6px 24px; margin-top: 10px; color: var(--ink); font-size: 14px; }
@@ -93,12 +96,12 @@ footer { margin-top: 96px; padding-bottom: 56px; color: var(--soft); font-size: 
 @media (max-width: 700px) {
   body { font-size: 16px; } main, header, footer { padding: 0 18px; } header { padding-top: 36px; }
   .verdict { grid-template-columns: 1fr; } .verdict p { font-size: 18px; }
-  dl { grid-template-columns: 1fr 1fr; } dd { font-size: 20px; } dl div { padding: 14px 12px 14px 0; }
+  dl { grid-template-columns: 1fr 1fr; gap: 22px 16px; } dd { font-size: 20px; }
   .plate, section { margin-top: 60px; } h2 { font-size: 22px; } .many .panels { grid-template-columns: 1fr 1fr; gap: 20px 12px; } .panel p { font-size: 13px; }
   .plate:not(.many) .stage { border-radius: 8px; }
   .plate:not(.many) .dot { r: 10px; } .plate:not(.many) .pin { display: none; } .plate:not(.many) .pin.major { display: inline; }
   .plate:not(.many) .way { stroke-width: 5; } .plate:not(.many) .way.casing { stroke-width: 9; }
-  .pin circle { r: 26px; } .pin text { font-size: 30px; } .tag text { font-size: 15px; } .scale text { font-size: 36px; }
+  .pin circle { r: 26px; } .pin text { font-size: 30px; } .tag { transform-box: fill-box; transform-origin: 50% 100%; transform: scale(2.1); } .scale text { font-size: 36px; }
   .chart { margin-right: -6px; } .tick, .label { font-size: 15px; } .name { font-size: 16px; }
 }
 @media print {

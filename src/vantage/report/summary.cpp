@@ -34,9 +34,9 @@ std::string bounds(const ReportInput<Dim>& input) {
 
 template <int Dim>
 Figure surface_figure(const SurfaceStatistics& surface) {
-  const std::string pieces[] = {counted(surface.fits, "segment", "segments"), counted(surface.fits, "flat piece", "flat pieces")};
+  const std::string names[] = {"Segments", "Flat pieces"};
   const std::string thin[] = {"", counted(surface.segments, "thin piece", "thin pieces") + ", "};
-  return {"Surface", pieces[Dim - 2], thin[Dim - 2] + counted(surface.loose_points, "single point", "single points")};
+  return {names[Dim - 2], number(surface.fits), "and " + thin[Dim - 2] + counted(surface.loose_points, "single point", "single points")};
 }
 
 Figure error_figure(const SurfaceStatistics& surface) {
@@ -50,7 +50,7 @@ std::vector<Figure> key_figures(const ReportInput<Dim>& input) {
   std::int64_t points = 0;
   for (const auto& scan : input.scan_points) points += static_cast<std::int64_t>(scan.size());
   const double seen = input.steps.empty() ? 0.0 : input.steps.back().seen_volume;
-  return {{"Scans", number(static_cast<std::int64_t>(input.steps.size())), fmt::format("{} of way between them", quantity(way(input), "m"))},
+  return {{"Scans", number(static_cast<std::int64_t>(input.steps.size())), fmt::format("{} of path through them", quantity(way(input), "m"))},
           {"Points", number(points), input.steps.empty() ? "" : number(points / static_cast<std::int64_t>(input.steps.size())) + " a scan"},
           surface_figure<Dim>(input.surface),
           error_figure(input.surface),
@@ -78,7 +78,9 @@ std::string left_over(const Verdict<Dim>& verdict) {
     volume += region.volume;
   }
   std::string list;
-  for (const auto& [reason, count] : reasons) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", number(count), reason);
+  for (const auto& [reason, count] : reasons) {
+    list += fmt::format("{}{} {}{}", list.empty() ? "" : ", ", number(count), reason == "no reachable view" ? "with " : "", reason);
+  }
   return fmt::format(" {} unseen, {} in all: {}.", counted(static_cast<std::int64_t>(verdict.unseen.size()), "region stays", "regions stay"),
                      quantity(volume, volume_unit<Dim>()), list);
 }

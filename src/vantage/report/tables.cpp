@@ -23,6 +23,12 @@ std::string explained(const std::string& reason) {
   return reason;
 }
 
+std::string capital(std::string_view word) {
+  std::string text(word);
+  text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 template <int Dim>
 std::string size_text(const Box<Dim>& box) {
   if (box.empty()) return "–";
@@ -35,7 +41,7 @@ template <int Dim>
 std::string unseen_html(const Verdict<Dim>& verdict) {
   std::string html = "<section id=\"left\"><h2>What stays unseen, and why</h2>\n";
   if (verdict.unseen.empty()) return html + "<p class=\"note\">No region above the reporting threshold stays unseen.</p></section>\n";
-  const std::vector<std::string> columns{">No.", ">Left [" + std::string(volume_unit<Dim>()) + "]", "Size", "Around", "Why"};
+  const std::vector<std::string> columns{">No.", ">" + capital(volume_word<Dim>()) + " [" + std::string(volume_unit<Dim>()) + "]", "Size", "Around", "Why"};
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < verdict.unseen.size(); ++i) {
     const UnseenRegion<Dim>& region = verdict.unseen[i];
@@ -56,8 +62,16 @@ std::string steps_table(const std::vector<StepRecord<Dim>>& steps) {
                     percent(step.seen_fraction), number(step.path_length), number(step.next_score), number(step.expected_volume), number(step.candidates)});
   }
   const std::string unit(volume_unit<Dim>());
-  return table({">Scan", "Vantage point [m]", ">Points", ">New [" + unit + "]", ">Seen share", ">Way [m]", ">Next max E", ">Expected next [" + unit + "]", ">Candidates"},
+  return table({">Scan", "Vantage point [m]", ">Points", ">New [" + unit + "]", ">Seen share", ">Path [m]", ">Next max E", ">Expected next [" + unit + "]", ">Candidates"},
                rows);
+}
+
+/// Where the axis of the seen share starts [%].
+template <int Dim>
+double lowest_share(const std::vector<StepRecord<Dim>>& steps) {
+  double lowest = 1.0;
+  for (const StepRecord<Dim>& step : steps) lowest = std::min(lowest, step.seen_fraction);
+  return std::clamp(10.0 * std::floor(10.0 * lowest), 0.0, 90.0);
 }
 
 /// One value a step.
@@ -87,7 +101,7 @@ std::string curves_html(const ReportInput<Dim>& input) {
   using Step = StepRecord<Dim>;
   const std::string word(volume_word<Dim>()), unit(volume_unit<Dim>());
 
-  Chart share{"Seen share", "Of what can be seen; the band is the range the share surely lies in at the end.", "scan", "%", false, 0.0, 100.0,
+  Chart share{"Seen share", "Of what can be seen; the band shows the bounds of the final share.", "scan", "%", false, lowest_share(steps), 100.0,
               100.0 * input.verdict.seen_low, 100.0 * input.verdict.seen_high, {}};
   share.curves.push_back(named(over_scans(steps, [](const Step& s) { return 100.0 * s.seen_fraction; }), percent(steps.back().seen_fraction), "var(--c1)"));
 
@@ -102,7 +116,7 @@ std::string curves_html(const ReportInput<Dim>& input) {
   Chart metric{"Largest metric E after each scan", "Over all candidates for the next vantage point.", "scan", "", false, 0, 0, 0, 0, {}};
   metric.curves.push_back(named(over_scans(steps, [](const Step& s) { return s.next_score; }), "max E", "var(--c3)"));
 
-  Chart way{"Way so far", "Length of the path through the vantage points.", "scan", "m", false, 0, 0, 0, 0, {}};
+  Chart way{"Path so far", "Length of the path through the vantage points.", "scan", "m", false, 0, 0, 0, 0, {}};
   double length = 0.0;
   Curve sum = over_scans(steps, [&length](const Step& s) { return length += s.path_length; });
   way.curves.push_back(named(std::move(sum), quantity(length, "m"), "var(--c2)", Curve::Style::area));

@@ -52,6 +52,11 @@ std::string number(double value) {
   return grouped(fmt::format("{:.{}f}", value, decimals));
 }
 
+std::string rounded(double value) {
+  const double size = std::abs(value);
+  return size != 0.0 && (size < 1e-4 || size >= 1e12) ? fmt::format("{:g}", value) : grouped(fmt::format("{:.12g}", value));
+}
+
 std::string number(std::int64_t value) { return grouped(fmt::format("{}", value)); }
 
 std::string quantity(double value, std::string_view unit) { return number(value) + "\u00a0" + std::string(unit); }
