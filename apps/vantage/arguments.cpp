@@ -49,7 +49,6 @@ CommandParser::CommandParser(const std::string& name, const std::string& usage, 
   app_.formatter(std::make_shared<HelpFormatter>());
   app_.allow_extras();
   app_.footer("Examples:\n" + examples);
-  app_.set_help_flag("-h,--help", "this text")->group("Other");
 }
 
 CLI::Option* CommandParser::option(const std::string& names, std::string& value, const std::string& type, const std::string& help, const std::string& group) {
@@ -61,10 +60,13 @@ CLI::Option* CommandParser::flag(const std::string& names, bool& value, const st
 }
 
 bool CommandParser::parse(const Arguments& arguments) {
+  app_.set_help_flag("-h,--help", "this text")->group("Other");  // Last, so that it stands last.
   try {
     app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
-    std::cout << app_.help();
+    std::string help = app_.help();
+    for (std::size_t at = 0; (at = help.find("\n\n\n")) != std::string::npos;) help.erase(at, 1);
+    std::cout << help;
     return false;
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorCode::bad_input, error.what());

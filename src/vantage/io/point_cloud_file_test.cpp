@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "vantage/base/error.h"
 #include "vantage/base/random.h"
 #include "vantage/io/bytes.h"
+#include "vantage/io/test_data.h"
 
 namespace vantage {
 namespace {
@@ -188,9 +187,7 @@ TEST(PointFile, MissingFilesAndFoldersAreIoErrors) {
 }
 
 TEST(PointFile, UpstreamFilesLoadOrAreRefused) {
-  const char* folder = std::getenv("VANTAGE_DATA");
-  const std::filesystem::path data = folder == nullptr ? std::filesystem::path(__FILE__).parent_path() / "../../../../shared/data" : std::filesystem::path(folder);
-  if (!std::filesystem::exists(data / "corrupt")) GTEST_SKIP() << "no data set `corrupt`";
+  VANTAGE_NEEDS_DATA("corrupt");
   struct Expectation {
     const char* file;
     int points;  ///< -1: refused.
@@ -214,7 +211,7 @@ TEST(PointFile, UpstreamFilesLoadOrAreRefused) {
     int points = -1;
     std::string message;
     try {
-      points = static_cast<int>(read_points(data / expected.file).points.size());
+      points = static_cast<int>(read_points(data_set(expected.file)).points.size());
     } catch (const Error& error) {
       message = error.what();
     }
