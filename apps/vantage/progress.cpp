@@ -166,9 +166,9 @@ std::string RunProgress::live_line(std::size_t width) const {
     constexpr std::size_t kBar = 14;  // Always keep room for a bar.
     if (2 + head.size() + 2 + 10 + 2 + kBar + 1 + tail.size() + more.size() <= width) tail += more;
   };
-  if (left >= 0.0) add(fmt::format("  ~{} left", duration(std::max(left, 1.0))));
+  if (left >= 0.0) add(fmt::format("  ~{} left", stopwatch(std::max(left, 1.0))));
   add(fmt::format("  {} points", rounded(static_cast<double>(points_))));
-  add(fmt::format("  {}", duration(std::floor(elapsed))));
+  add(fmt::format("  {}", stopwatch(elapsed)));
   const std::size_t used = 2 + head.size() + 2 + 10 + 2 + 1 + tail.size();
   if (used + 6 > width) return fmt::format("{} {}  {}", spin, head, percent(seen)).substr(0, width);
   const std::string filled = bar(seen, std::min<std::size_t>(width - used, 40));
