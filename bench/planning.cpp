@@ -22,6 +22,7 @@ struct Settings {
   double cap = 3.0;           ///< Scans of a run at most, in those of its oracle.
   bool to_the_end = false;    ///< Run on after 99 %, to judge the verdict.
   bool scene_start = false;   ///< The first start is the scene's own.
+  bool curves = false;        ///< Places and shares after each scan.
 };
 
 /// `stage.name=value` into the options of a trial.
@@ -49,6 +50,16 @@ struct Sum {
   double worst = 0.0;
 };
 
+/// Place and share, scan by scan: of the run and of its oracle.
+template <int Dim>
+void curves(const RunScore<Dim>& run, const SightTable<Dim>& sight, const OracleRun& oracle) {
+  const auto line = [](const char* who, std::size_t k, const Vec<Dim>& place, double share) {
+    fmt::print("{:>24} {:>4}  {:.4f}  at {:.2f}\n", who, k + 1, share, fmt::join(place.begin(), place.end(), ", "));
+  };
+  for (std::size_t k = 0; k < run.coverage.size(); ++k) line("run", k, run.places[k], run.coverage[k]);
+  for (std::size_t k = 0; k < oracle.coverage.size(); ++k) line("oracle", k, sight.candidates[oracle.places[k]], oracle.coverage[k]);
+}
+
 template <int Dim>
 void row(const Trial<Dim>& trial, const Vec<Dim>& start, const TrialOptions& options, const Settings& settings, Sum& sum) {
   const OracleOptions sampling{.targets = settings.targets, .candidates = settings.candidates};
@@ -65,6 +76,10 @@ void row(const Trial<Dim>& trial, const Vec<Dim>& start, const TrialOptions& opt
   fmt::print("{:>24} {:>4} {:>4} {:>4} {:>7} {:>5} {:>6.2f} {:>5} {:>8.4f} {:>10.4g} {:>8} {:>8.2f}\n", sum.runs, scans(run.scans_to(0.9)), scans(run.scans_to(0.95)),
              scans(n99), best, scans(walking.scans_to(0.99)), ratio, idle, run.coverage.back(), run.falsely_free,
              run.finished ? (run.verdict_right ? "right" : "wrong") : "-", seconds);
+  if (run.finished)
+    fmt::print("{:>24} {} after {} scans: {} Seen {:.5f} .. {:.5f}, truly {:.5f}.\n", "", run.verdict.complete ? "complete" : "not complete", run.places.size(),
+               run.verdict.reason, run.verdict.seen_low, run.verdict.seen_high, run.coverage.back());
+  if (settings.curves) curves(run, sight, anywhere);
   std::fflush(stdout);
   sum.runs += 1;
   sum.missed += n99 ? 0 : 1;
@@ -108,6 +123,7 @@ int main(int argc, char** argv) {
   app.add_option("--cap", settings.cap, "scans of a run at most, over those of its oracle");
   app.add_flag("--to-the-end", settings.to_the_end, "run on after 99 % until the explorer stops");
   app.add_flag("--scene-start", settings.scene_start, "the first start is the scene's own");
+  app.add_flag("--curves", settings.curves, "places and shares after each scan");
   CLI11_PARSE(app, argc, argv);
   try {
     for (const std::string& name : settings.scenes)

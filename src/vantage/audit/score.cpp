@@ -37,7 +37,8 @@ RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference
     score.falsely_free = now.falsely_free;
   }
   score.finished = explorer.finished();
-  if (score.finished && !score.coverage.empty()) score.verdict_right = verdict_right(explorer.verdict(), score.coverage.back());
+  if (score.finished) score.verdict = explorer.verdict();
+  score.verdict_right = score.finished && !score.coverage.empty() && verdict_right(score.verdict, score.coverage.back());
   return score;
 }
 

@@ -16,6 +16,7 @@ struct RunScore {
   double falsely_free = 0.0;         ///< At the end, see Coverage [m^Dim].
   double path_length = 0.0;          ///< [m]
   bool finished = false;             ///< The explorer ended by itself; only then is there a verdict to judge.
+  Verdict<Dim> verdict;              ///< What it said at its end.
   bool verdict_right = false;        ///< See verdict_right().
 
   [[nodiscard]] std::optional<std::int64_t> scans_to(double share) const { return vantage::scans_to(coverage, share); }
