@@ -25,6 +25,8 @@ struct ConvexRegion {
   [[nodiscard]] ConvexRegion simplified(double tolerance) const;
   /// Nearest place of the region.
   [[nodiscard]] Place closest(const Place& p) const;
+  /// Unit normal, outwards, of the edge from vertex i to the next (Rank 1: of vertex i); zero if the edge has no length.
+  [[nodiscard]] Place edge_normal(int i) const;
   /// Length or area.
   [[nodiscard]] double measure() const;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vantage/geometry/clip.h"
+#include "vantage/geometry/hausdorff.h"
 
 namespace vantage {
 
@@ -47,6 +48,17 @@ ConvexRegion<1> ConvexRegion<1>::simplified(double tolerance) const {
 template <>
 ConvexRegion<1>::Place ConvexRegion<1>::closest(const Place& p) const {
   return Place(std::clamp(p[0], vertices[0][0], vertices[1][0]));
+}
+
+template <>
+ConvexRegion<1>::Place ConvexRegion<1>::edge_normal(int i) const {
+  return Place(i == 0 ? -1.0 : 1.0);
+}
+
+template <>
+ConvexRegion<1> outline<1>(const Feet<1>& feet) {
+  const auto [low, high] = std::minmax_element(feet.at[0].begin(), feet.at[0].end());
+  return ConvexRegion<1>::box(ConvexRegion<1>::Place(*low), ConvexRegion<1>::Place(*high));
 }
 
 }  // namespace vantage

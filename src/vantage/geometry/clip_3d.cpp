@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "vantage/geometry/clip.h"
+#include "vantage/geometry/hausdorff.h"
 
 namespace vantage {
 namespace {
@@ -78,6 +79,31 @@ double ConvexRegion<2>::measure() const {
   double twice = 0.0;
   for (int i = 1; i + 1 < count; ++i) twice += cross(vertices[i] - vertices[0], vertices[i + 1] - vertices[0]);
   return 0.5 * twice;
+}
+
+template <>
+Place ConvexRegion<2>::edge_normal(int i) const {
+  const Place edge = vertices[(i + 1) % count] - vertices[i];
+  const double length = edge.norm();
+  return length > 0.0 ? Place(edge[1] / length, -edge[0] / length) : Place(Place::Zero());
+}
+
+template <>
+ConvexRegion<2> outline<2>(const Feet<2>& feet) {
+  Place low = Place::Constant(kInfinity), high = -low, low_diagonal = low, high_diagonal = high;
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    const Place p(feet.at[0][i], feet.at[1][i]), diagonal(p[0] + p[1], p[0] - p[1]);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    low_diagonal = low_diagonal.cwiseMin(diagonal);
+    high_diagonal = high_diagonal.cwiseMax(diagonal);
+  }
+  const Place sum(1.0, 1.0), difference(1.0, -1.0);
+  return ConvexRegion<2>::box(low, high)
+      .clipped(sum, high_diagonal[0])
+      .clipped(-sum, -low_diagonal[0])
+      .clipped(difference, high_diagonal[1])
+      .clipped(-difference, -low_diagonal[1]);
 }
 
 }  // namespace vantage

@@ -10,24 +10,63 @@ namespace {
 constexpr double kRatio = 1.1;       ///< Upper bound over truth.
 constexpr double kUndecided = 1e-6;  ///< Of the limit: so near to it, the answer is no.
 
-/// Branch and bound over boxes that cover the region. Each box keeps the points that may be nearest to one of its places.
+/// Stack of feet; the search works at its top.
+template <int Rank>
+struct Arena {
+  std::array<std::vector<double>, Rank> at;
+  std::vector<double> height2;
+  std::vector<double> distance2;  ///< Of the feet last looked at.
+  std::size_t size = 0;
+
+  void reserve(std::size_t capacity) {
+    if (capacity <= height2.size()) return;
+    capacity += capacity / 2;
+    for (auto& axis : at) axis.resize(capacity);
+    height2.resize(capacity);
+    distance2.resize(capacity);
+  }
+};
+
+/// Half-planes of a region: the largest signed distance to their edges tells inside from outside.
+template <int Rank>
+struct Edges {
+  using Place = typename ConvexRegion<Rank>::Place;
+  std::array<Place, ConvexRegion<Rank>::kMaxVertices> normal;
+  std::array<double, ConvexRegion<Rank>::kMaxVertices> offset;
+  int count = 0;
+
+  explicit Edges(const ConvexRegion<Rank>& region) {
+    for (int i = 0; i < region.count; ++i)
+      if (const Place n = region.edge_normal(i); n.squaredNorm() > 0.0) {
+        normal[count] = n;
+        offset[count++] = n.dot(region.vertices[i]);
+      }
+  }
+  [[nodiscard]] double outside(const Place& p) const {
+    double most = -kInfinity;
+    for (int i = 0; i < count; ++i) most = std::max(most, normal[i].dot(p) - offset[i]);
+    return most;
+  }
+};
+
+/// Branch and bound over boxes that cover the region. Each box keeps the feet that may be nearest to one of its places.
 template <int Rank>
 class Search {
  public:
   using Place = typename ConvexRegion<Rank>::Place;
 
-  Search(const ConvexRegion<Rank>& region, Feet<Rank>& arena, double limit) : region_(region), arena_(arena), limit_(limit) {}
+  Search(const ConvexRegion<Rank>& region, Arena<Rank>& arena, double limit) : region_(region), edges_(region), arena_(arena), limit_(limit) {}
 
   /// The arena holds the points, and only them.
   std::optional<double> run() {
-    const Points all{0, arena_.size()};
+    const Points all{0, arena_.size};
     Place low = region_.vertices[0], high = low;
     for (int i = 0; i < region_.count; ++i) {
       low = low.cwiseMin(region_.vertices[i]);
       high = high.cwiseMax(region_.vertices[i]);
       if (!raise_lower(nearest(region_.vertices[i], all))) return std::nullopt;
     }
-    Item root{0.5 * (low + high), 0.5 * (high - low), all, 0.0, true};
+    Item root{0.5 * (low + high), 0.5 * (high - low), all, 0.0, true, false};
     root.upper = root.half.norm() + nearest(root.center, all);
     tiny_ = std::isfinite(limit_) ? kUndecided / 2.0 * limit_ : 1e-10 * root.upper;
     if (!visit(root)) return std::nullopt;
@@ -43,10 +82,12 @@ class Search {
     Points points;
     double upper;  ///< No place of region and box is farther from the points.
     bool open;     ///< Needs a closer look.
+    bool within;   ///< Lies in the region whole.
   };
 
   const ConvexRegion<Rank>& region_;
-  Feet<Rank>& arena_;
+  Edges<Rank> edges_;
+  Arena<Rank>& arena_;
   double limit_;
   double lower_ = 0.0, upper_ = 0.0, tiny_ = 0.0;
 
@@ -57,7 +98,7 @@ class Search {
   }
   [[nodiscard]] double good_enough() const { return std::min(limit_, std::max(kRatio * lower_, std::isfinite(limit_) ? 1e-6 * limit_ : 0.0)); }
 
-  double distance2(std::size_t i, const Place& p) const {
+  [[nodiscard]] double distance2(std::size_t i, const Place& p) const {
     double sum = arena_.height2[i];
     for (int k = 0; k < Rank; ++k) {
       const double d = arena_.at[k][i] - p[k];
@@ -65,24 +106,35 @@ class Search {
     }
     return sum;
   }
-  double nearest(const Place& p, Points points) const {
+  [[nodiscard]] double nearest(const Place& p, Points points) const {
     double best = kInfinity;
     for (std::size_t i = points.begin; i < points.end; ++i) best = std::min(best, distance2(i, p));
     return std::sqrt(best);
   }
 
-  /// Bounds of a box; keeps its points at the end of the arena. nullopt: the limit is passed.
+  /// A box's part that needs a closer look keeps its points at the top of the arena. nullopt: the limit is passed.
   std::optional<Item> evaluate(const Place& center, const Place& half, const Item& parent) {
     const Points parents = parent.points;
     const double radius = half.norm();
-    Item item{center, half, {arena_.size(), arena_.size()}, 0.0, false};
-    const Place inside = region_.closest(center);
-    const double apart = (inside - center).norm();
-    if (apart > radius) return item;  // The box misses the region.
+    Item item{center, half, {arena_.size, arena_.size}, 0.0, false, parent.within};
+    double apart = 0.0;  // To the region.
+    Place inside = center;
+    if (!parent.within) {
+      const double outside = edges_.outside(center);
+      if (outside > radius) return item;  // The box misses the region.
+      item.within = outside <= -radius;
+      if (outside > 0.0) {
+        inside = region_.closest(center);
+        apart = (inside - center).norm();
+        if (apart > radius) return item;
+      }
+    }
+    arena_.reserve(arena_.size + (parents.end - parents.begin));
     double best2 = kInfinity;
     std::size_t best = parents.begin;
     for (std::size_t i = parents.begin; i < parents.end; ++i) {
       const double d2 = distance2(i, center);
+      arena_.distance2[i] = d2;
       if (d2 < best2) {
         best2 = d2;
         best = i;
@@ -105,12 +157,13 @@ class Search {
     }
     item.open = true;
     const double keep = distance + 2.0 * radius;
+    std::size_t end = arena_.size;
     for (std::size_t i = parents.begin; i < parents.end; ++i) {
-      if (distance2(i, center) > keep * keep) continue;
-      for (auto& axis : arena_.at) axis.push_back(double(axis[i]));
-      arena_.height2.push_back(double(arena_.height2[i]));
+      for (int k = 0; k < Rank; ++k) arena_.at[k][end] = arena_.at[k][i];
+      arena_.height2[end] = arena_.height2[i];
+      end += arena_.distance2[i] <= keep * keep ? 1 : 0;
     }
-    item.points.end = arena_.size();
+    arena_.size = item.points.end = end;
     return item;
   }
 
@@ -119,7 +172,7 @@ class Search {
       upper_ = std::max(upper_, item.upper);
       return item.upper <= limit_;
     }
-    const std::size_t mark = arena_.size();
+    const std::size_t mark = arena_.size;
     Eigen::Index axis = 0;
     item.half.maxCoeff(&axis);
     Place half = item.half;
@@ -141,13 +194,8 @@ class Search {
         return false;
       }
     }
-    resize(mark);
+    arena_.size = mark;
     return true;
-  }
-
-  void resize(std::size_t size) {
-    for (auto& axis : arena_.at) axis.resize(size);
-    arena_.height2.resize(size);
   }
 };
 
@@ -157,8 +205,11 @@ template <int Rank>
 std::optional<double> covering_radius(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit) {
   if (region.count == 0) return 0.0;
   if (points.size() == 0) return std::nullopt;
-  thread_local Feet<Rank> arena;
-  arena = points;
+  thread_local Arena<Rank> arena;
+  arena.reserve(2 * points.size());
+  for (int k = 0; k < Rank; ++k) std::copy(points.at[k].begin(), points.at[k].end(), arena.at[k].begin());
+  std::copy(points.height2.begin(), points.height2.end(), arena.height2.begin());
+  arena.size = points.size();
   return Search<Rank>(region, arena, limit).run();
 }
 

@@ -21,10 +21,14 @@ struct Feet {
   }
 };
 
+/// The box around the feet; in the plane with its corners cut at 45 degrees, as far as the feet allow.
+template <int Rank>
+[[nodiscard]] ConvexRegion<Rank> outline(const Feet<Rank>& feet);
+
 /// delta(region, points), Eq. (3): the largest distance of a place of the region to its nearest point [m]. Decided, not sampled: the distance to
 /// a set is 1-Lipschitz, so branch and bound over the region has bounds on both sides. Returns an upper bound that is <= `limit` and at most
-/// 10 % above the truth (or above 10^-6 of a finite limit), or nullopt if the truth is above the limit (or within 10^-6 of it). `limit` may be infinite.
-/// Nothing reaches an empty set of points. After DeVore et al. [5], whose test samples.
+/// 10 % above the truth (or above 10^-6 of a finite limit), or nullopt if the truth is above the limit (or within 10^-6 of it). `limit` may be
+/// infinite. Nothing reaches an empty set of points. After DeVore et al. [5], whose test samples.
 template <int Rank>
 [[nodiscard]] std::optional<double> covering_radius(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit);
 

@@ -55,9 +55,9 @@ Frame<Dim> principal_frame(const Moments<Dim>& m, const Site<Dim>& base, double 
   return frame;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                          \
-  template struct Moments<D>;                                                           \
-  template Moments<D> moments<D>(std::span<const Site<D>>, const Site<D>&, int);        \
+#define VANTAGE_INSTANTIATE(D)                                                   \
+  template struct Moments<D>;                                                    \
+  template Moments<D> moments<D>(std::span<const Site<D>>, const Site<D>&, int); \
   template Frame<D> principal_frame<D>(const Moments<D>&, const Site<D>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

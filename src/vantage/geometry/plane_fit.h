@@ -35,9 +35,9 @@ template <int Dim>
 template <int Dim>
   requires SpatialDim<Dim>
 struct Frame {
-  Vec<Dim> origin;                        ///< [m]
-  Eigen::Matrix<double, Dim, Dim> axes;   ///< Orthonormal columns, by falling variance: the last one is the normal of the PCA plane.
-  Vec<Dim> variance;                      ///< Along the axes [m^2].
+  Vec<Dim> origin;                       ///< [m]
+  Eigen::Matrix<double, Dim, Dim> axes;  ///< Orthonormal columns, by falling variance: the last one is the normal of the PCA plane.
+  Vec<Dim> variance;                     ///< Along the axes [m^2].
 
   /// Coordinates of p along the axes [m].
   [[nodiscard]] Vec<Dim> local(const Vec<Dim>& p) const { return axes.transpose() * (p - origin); }

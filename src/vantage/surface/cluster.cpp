@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/surface/cluster.h"
 
+#include <algorithm>
+
 namespace vantage {
 namespace {
 
-constexpr std::size_t kSample = 256;  ///< The pieces are found on at most so many points.
-constexpr int kRounds = 5;
+constexpr std::size_t kSample = 128;  ///< The pieces are found on at most so many points.
+constexpr int kRounds = 4;
 constexpr double kOutside = 1.0 / 64.0;  ///< Weight of the squared distance beyond a piece's box, against that off its plane.
 
 /// Piece of a plane: a frame, and the box of its points in it.
@@ -30,9 +32,6 @@ struct Piece {
   [[nodiscard]] double thickness() const { return std::max(-low[Dim - 1], high[Dim - 1]); }
 };
 
-template <int Dim>
-using Clusters = std::array<std::vector<Site<Dim>>, 2>;
-
 template <int Dim, class IsSecond>
 Clusters<Dim> divide(std::span<const Site<Dim>> sites, const IsSecond& is_second) {
   Clusters<Dim> clusters;
@@ -48,8 +47,40 @@ bool one_is_empty(const Clusters<Dim>& clusters) {
 }  // namespace
 
 template <int Dim>
-std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules, const Frame<Dim>& frame,
-                                          int axis) {
+int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, double reach, Clusters<Dim>& clusters) {
+  thread_local std::vector<Vec<Dim>> places;
+  thread_local std::vector<std::uint32_t> order;  // Reached ones first, in the order in which they are looked at.
+  const std::size_t count = sites.size();
+  places.clear();
+  order.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    places.push_back(snap.local(sites[i]));
+    order[i] = static_cast<std::uint32_t>(i);
+  }
+  std::size_t reached = 0, looked = 0, first_part = count;
+  for (int parts = 0;; ++parts) {
+    if (reached == count) {
+      if (parts == 2) {
+        std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(first_part));
+        std::sort(order.begin() + static_cast<std::ptrdiff_t>(first_part), order.end());
+        for (std::size_t i = 0; i < count; ++i) clusters[i < first_part ? 0 : 1].push_back(sites[order[i]]);
+      }
+      return parts;
+    }
+    if (parts == 1) first_part = reached;
+    if (parts == 2) return 3;
+    ++reached;  // A seed.
+    for (; looked < reached; ++looked) {
+      const Vec<Dim> from = places[order[looked]];
+      for (std::size_t i = reached; i < count; ++i)
+        if ((places[order[i]] - from).squaredNorm() <= reach * reach) std::swap(order[i], order[reached++]);
+    }
+  }
+}
+
+template <int Dim>
+std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules,
+                                          const Frame<Dim>& frame, int axis) {
   const std::size_t stride = (sites.size() + kSample - 1) / kSample;
   std::vector<Site<Dim>> sample;
   for (std::size_t i = 0; i < sites.size(); i += stride) sample.push_back(sites[i]);
@@ -75,7 +106,8 @@ std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, cons
   }
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                                       \
+#define VANTAGE_INSTANTIATE(D)                                                                                                              \
+  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&); \
   template std::optional<Clusters<D>> two_clusters<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

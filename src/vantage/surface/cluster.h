@@ -9,10 +9,18 @@
 
 namespace vantage {
 
+template <int Dim>
+using Clusters = std::array<std::vector<Site<Dim>>, 2>;
+
+/// Number of parts (1, 2, or 3 for more) into which the sites fall if those within `reach` of each other [m] are joined. A patch is connected, so
+/// one within the limit both ways carries points of one part only, for a reach of twice the limit; two parts are written to `clusters`.
+template <int Dim>
+[[nodiscard]] int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, double reach, Clusters<Dim>& clusters);
+
 /// Splits sites (in Morton order) into two clusters, each near a piece of a plane of its own; `axis` of the frame gives the first cut. nullopt
 /// if that leads nowhere: a cluster runs empty, or a sample of the points already lies off both pieces. Deterministic in the multiset of sites.
 template <int Dim>
-[[nodiscard]] std::optional<std::array<std::vector<Site<Dim>>, 2>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell,
+[[nodiscard]] std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell,
                                                                                 const FitRules<Dim>& rules, const Frame<Dim>& frame, int axis);
 
 }  // namespace vantage

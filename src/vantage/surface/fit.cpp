@@ -12,6 +12,8 @@ namespace {
 
 /// Points with an extent below this share of the limit have none in that axis.
 constexpr double kThin = 0.5;
+/// So many sites are asked whether they hang together, in quadratic time.
+constexpr std::size_t kFewSites = 128;
 
 float rounded_up(double value) {
   const float near = static_cast<float>(value);
@@ -89,11 +91,6 @@ Patch<Dim> make_patch(const ConvexRegion<Rank>& region, const Errors& errors, co
   return patch;
 }
 
-template <int Rank, int Dim>
-ConvexRegion<Rank> extent(const Projected<Dim>& points) {
-  return ConvexRegion<Rank>::box(points.low.template head<Rank>(), points.high.template head<Rank>());
-}
-
 /// The plane in the whole cell: enough points to cover it with discs?
 template <int Dim>
 bool coverable(const ConvexRegion<Dim - 1>& region, std::size_t count, double limit) {
@@ -103,22 +100,41 @@ bool coverable(const ConvexRegion<Dim - 1>& region, std::size_t count, double li
   return region.measure() <= static_cast<double>(count) * disc;
 }
 
+/// Where the plane meets the bounding box of the points, which is widened so that all their feet are in.
+template <int Dim>
+ConvexRegion<Dim - 1> in_bounding_box(std::span<const Site<Dim>> sites, const Feet<Dim - 1>& feet, const Frame<Dim>& frame, const Snap<Dim>& snap) {
+  Site<Dim> low = sites[0], high = low;
+  for (const Site<Dim>& site : sites)
+    for (int a = 0; a < Dim; ++a) {
+      low[a] = std::min(low[a], site[a]);
+      high[a] = std::max(high[a], site[a]);
+    }
+  const double thickness = std::sqrt(*std::max_element(feet.height2.begin(), feet.height2.end()));
+  return clip_to_box(frame, Box<Dim>{snap.local(low), snap.local(high)}.grown(thickness + snap.step()));
+}
+
 template <int Dim, int Rank>
-std::optional<Patch<Dim>> fit_rank(const Projected<Dim>& points, const Frame<Dim>& frame, const FitRules<Dim>& rules, const Cell<Dim>* cell) {
+std::optional<Patch<Dim>> fit_rank(std::span<const Site<Dim>> sites, const Projected<Dim>& points, const Frame<Dim>& frame,
+                                   const FitRules<Dim>& rules, const Cell<Dim>* cell) {
   const Feet<Rank> data = feet<Rank>(points);
   for (const double height2 : data.height2)
     if (height2 > rules.limit * rules.limit) return std::nullopt;
+  const auto attempt = [&](const ConvexRegion<Rank>& region) -> std::optional<Patch<Dim>> {
+    if (region.count > Patch<Dim>::kMaxVertices) return std::nullopt;
+    const auto errors = errors_within(region, data, rules.limit);
+    if (!errors) return std::nullopt;
+    return make_patch(region, *errors, frame, rules.snap);
+  };
+  std::optional<Patch<Dim>> patch;
   if constexpr (Rank == Dim - 1) {
     if (cell != nullptr) {
       const auto region = clip_to_box(frame, cell->box(rules.snap.step()));
-      if (region.count <= Patch<Dim>::kMaxVertices && coverable<Dim>(region, data.size(), rules.limit))
-        if (const auto errors = errors_within(region, data, rules.limit)) return make_patch(region, *errors, frame, rules.snap);
+      if (coverable<Dim>(region, data.size(), rules.limit)) patch = attempt(region);
     }
+    if (!patch) patch = attempt(in_bounding_box<Dim>(sites, data, frame, rules.snap));
   }
-  const auto region = extent<Rank>(points);
-  const auto errors = errors_within(region, data, rules.limit);
-  if (!errors) return std::nullopt;
-  return make_patch(region, *errors, frame, rules.snap);
+  if (!patch && !rules.paper) patch = attempt(outline(data));
+  return patch;
 }
 
 /// Rank 0: the site nearest to the mean stands for all.
@@ -150,6 +166,19 @@ Frame<Dim> frame_of(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, con
   return principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), cell.low, rules.snap.step());
 }
 
+/// Each cluster its own patch.
+template <int Dim>
+std::optional<CellFit<Dim>> fit_clusters(const Clusters<Dim>& clusters, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+  CellFit<Dim> fit;
+  for (const std::vector<Site<Dim>>& cluster : clusters) {
+    if (rules.paper && static_cast<std::int64_t>(cluster.size()) < rules.min_points) return std::nullopt;
+    const auto patch = fit_flat<Dim>(cluster, frame_of<Dim>(cluster, cell, rules), rules, nullptr);
+    if (!patch) return std::nullopt;
+    fit.patches.push_back(*patch);
+  }
+  return fit;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -158,27 +187,24 @@ std::optional<Patch<Dim>> fit_flat(std::span<const Site<Dim>> sites, const Frame
   const int rank = rules.paper ? Dim - 1 : points.rank(kThin * rules.limit);
   switch (rank) {
     case 0: return fit_point<Dim>(sites, frame, rules);
-    case 1: return fit_rank<Dim, 1>(points, frame, rules, cell);
-    default: return fit_rank<Dim, Dim - 1>(points, frame, rules, cell);
+    case 1: return fit_rank<Dim, 1>(sites, points, frame, rules, cell);
+    default: return fit_rank<Dim, Dim - 1>(sites, points, frame, rules, cell);
   }
 }
 
 template <int Dim>
 std::optional<CellFit<Dim>> fit_cell(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+  if (sites.size() <= kFewSites) {
+    Clusters<Dim> clusters;
+    const int parts = connected_parts<Dim>(sites, rules.snap, 2.0 * rules.limit * (1.0 + 1e-9), clusters);
+    if (parts >= 3) return std::nullopt;
+    if (parts == 2) return fit_clusters<Dim>(clusters, cell, rules);
+  }
   const Frame<Dim> frame = frame_of<Dim>(sites, cell, rules);
   if (const auto one = fit_flat<Dim>(sites, frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
-  for (int axis = 0; axis < Dim; ++axis) {
-    const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis);
-    if (!clusters) continue;
-    CellFit<Dim> fit;
-    for (const std::vector<Site<Dim>>& cluster : *clusters) {
-      if (rules.paper && static_cast<std::int64_t>(cluster.size()) < rules.min_points) break;
-      const auto patch = fit_flat<Dim>(cluster, frame_of<Dim>(cluster, cell, rules), rules, nullptr);
-      if (!patch) break;
-      fit.patches.push_back(*patch);
-    }
-    if (fit.patches.size() == 2) return fit;
-  }
+  for (int axis = 0; axis < Dim; ++axis)
+    if (const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis))
+      if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
   return std::nullopt;
 }
 
@@ -188,7 +214,8 @@ CellFit<Dim> fit_at_limit(std::span<const Site<Dim>> sites, const Cell<Dim>& cel
   if (rules.paper) {
     const Projected<Dim> points(sites, frame, rules.snap);
     const auto data = feet<Dim - 1>(points);
-    const auto region = extent<Dim - 1>(points);
+    auto region = in_bounding_box<Dim>(sites, data, frame, rules.snap);
+    if (region.count == 0 || region.count > Patch<Dim>::kMaxVertices) region = outline(data);
     return {{make_patch(region, *errors_within(region, data, kInfinity), frame, rules.snap)}, {}};
   }
   CellFit<Dim> fit;
@@ -213,10 +240,10 @@ Patch<Dim> loose_patch(const Site<Dim>& site, const FitRules<Dim>& rules) {
   return patch;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                                       \
-  template std::optional<Patch<D>> fit_flat<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&, const Cell<D>*);                       \
-  template std::optional<CellFit<D>> fit_cell<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                                      \
-  template CellFit<D> fit_at_limit<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                                                \
+#define VANTAGE_INSTANTIATE(D)                                                                                                 \
+  template std::optional<Patch<D>> fit_flat<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&, const Cell<D>*); \
+  template std::optional<CellFit<D>> fit_cell<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                \
+  template CellFit<D> fit_at_limit<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                           \
   template Patch<D> loose_patch<D>(const Site<D>&, const FitRules<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -68,9 +68,9 @@ std::array<std::span<const Site<Dim>>, Cell<Dim>::kChildren> Cell<Dim>::split(st
   return parts;
 }
 
-#define VANTAGE_INSTANTIATE(D)                          \
-  template class Snap<D>;                               \
-  template void sort_sites<D>(std::vector<Site<D>>&);   \
+#define VANTAGE_INSTANTIATE(D)                        \
+  template class Snap<D>;                             \
+  template void sort_sites<D>(std::vector<Site<D>>&); \
   template struct Cell<D>;
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -9,7 +9,8 @@
 
 namespace vantage {
 
-/// Order along the Morton curve: total, and every dyadic cell is an interval of it. Bit `a` of a cell's number among its siblings is its side in axis a.
+/// Order along the Morton curve: total, and every dyadic cell is an interval of it. Bit `a` of a cell's number among its siblings is its side in axis
+/// a.
 template <int Dim>
 [[nodiscard]] inline bool morton_less(const Site<Dim>& a, const Site<Dim>& b) {
   int axis = Dim - 1;

@@ -18,8 +18,8 @@ FitRules<Dim> make_rules(const Box<Dim>& domain, const SurfaceOptions& options) 
   check_options(options, "surface");
   FitRules<Dim> rules{Snap<Dim>(domain), 0.0, options.min_points > 0 ? options.min_points : Dim + 2, options.paper};
   rules.limit = options.eta * (1.0 - kFloatMargin) - rules.snap.slack();
-  require(rules.limit > 16.0 * rules.snap.slack(),
-          "surface.eta = " + std::to_string(options.eta) + ": too fine for a domain this large; must be > " + std::to_string(20.0 * rules.snap.slack()) + " [m]");
+  require(rules.limit > 16.0 * rules.snap.slack(), "surface.eta = " + std::to_string(options.eta) + ": too fine for a domain this large; must be > " +
+                                                       std::to_string(20.0 * rules.snap.slack()) + " [m]");
   return rules;
 }
 

@@ -187,8 +187,7 @@ TYPED_TEST(Surface, TreeDependsOnTheSetAlone) {
 
   for (const std::size_t part : {1000U, 333U, 41U}) {
     HausdorffTree<Dim> incremental(domain<Dim>(), {});
-    for (std::size_t i = 0; i < shuffled.size(); i += part)
-      incremental.insert(std::span(shuffled).subspan(i, std::min(part, shuffled.size() - i)));
+    for (std::size_t i = 0; i < shuffled.size(); i += part) incremental.insert(std::span(shuffled).subspan(i, std::min(part, shuffled.size() - i)));
     expect_same(batch, incremental);
   }
 

@@ -8,8 +8,8 @@
 namespace vantage {
 namespace {
 
-/// A witness is worth looking for in nodes of so many points, and threads in updates of so many.
-constexpr std::size_t kWitnessPoints = 256;
+/// A proof is worth looking for in nodes of so many points, and threads in updates of so many.
+constexpr std::size_t kProofPoints = 256;
 constexpr std::size_t kParallelPoints = 2048;
 
 template <int Dim>
@@ -71,21 +71,18 @@ Change<Dim> Tree<Dim>::update(Node& node, const Cell<Dim>& cell, std::span<const
   ++change.nodes_touched;
   sum_up(inner, cell);
 
-  if (inner.totals.points < rules_.min_points) inner.witness.reset();
-  if (inner.witness && action == Action::remove)
-    for (const Site<Dim>& site : inner.witness->sites)
-      if (std::binary_search(sites.begin(), sites.end(), site, morton_less<Dim>)) {
-        inner.witness.reset();
-        break;
-      }
-  if (inner.witness) return change;
+  if (inner.proof) {
+    const bool stands = action == Action::insert ? inner.proof->survives_adding(sites, cell) : inner.proof->survives_removing(sites);
+    if (stands && inner.totals.points >= rules_.min_points) return change;
+    inner.proof.reset();
+  }
 
   std::vector<Site<Dim>> all;
   all.reserve(static_cast<std::size_t>(inner.totals.points));
   gather<Dim>(node, all);
   change.points_read += static_cast<std::int64_t>(all.size());
-  inner.witness = witness_of(all);
-  if (inner.witness) return change;
+  inner.proof = prove(all, cell);
+  if (inner.proof) return change;
   Node whole;
   if (set_leaf(whole, cell, all)) {  // Prune.
     change.changed.extend(bounds(node));
@@ -114,13 +111,13 @@ Change<Dim> Tree<Dim>::build(Node& node, const Cell<Dim>& cell, std::span<const 
   Change<Dim> change;
   change.nodes_touched = 1;
   change.points_read = static_cast<std::int64_t>(sites.size());
-  auto witness = cell.depth() < max_depth_ ? witness_of(sites) : nullptr;
-  if (!witness && set_leaf(node, cell, sites)) {
+  auto proof = cell.depth() < max_depth_ ? prove(sites, cell) : nullptr;
+  if (!proof && set_leaf(node, cell, sites)) {
     change.changed = bounds(node);
     return change;
   }
   change.add(split(node, cell, sites));
-  node.inner->witness = std::move(witness);
+  node.inner->proof = std::move(proof);
   return change;
 }
 
@@ -156,16 +153,14 @@ bool Tree<Dim>::set_leaf(Node& node, const Cell<Dim>& cell, std::span<const Site
   }
   const auto same = [&](std::uint32_t a, std::uint32_t b) { return sites[a] == sites[b]; };
   fit.loose.erase(std::unique(fit.loose.begin(), fit.loose.end(), same), fit.loose.end());
-  if (!sites.empty())
-    node.leaf = std::make_unique<Leaf>(Leaf{{sites.begin(), sites.end()}, std::move(fit.patches), std::move(fit.loose), dropped});
+  if (!sites.empty()) node.leaf = std::make_unique<Leaf>(Leaf{{sites.begin(), sites.end()}, std::move(fit.patches), std::move(fit.loose), dropped});
   return true;
 }
 
 template <int Dim>
-std::unique_ptr<Witness<Dim>> Tree<Dim>::witness_of(std::span<const Site<Dim>> sites) const {
-  if (sites.size() < kWitnessPoints || static_cast<std::int64_t>(sites.size()) < rules_.min_points) return nullptr;
-  const auto witness = find_witness<Dim>(sites, eta_ / rules_.snap.step());
-  return witness ? std::make_unique<Witness<Dim>>(*witness) : nullptr;
+std::unique_ptr<Proof<Dim>> Tree<Dim>::prove(std::span<const Site<Dim>> sites, const Cell<Dim>& cell) const {
+  if (sites.size() < kProofPoints || static_cast<std::int64_t>(sites.size()) < rules_.min_points) return nullptr;
+  return Proof<Dim>::find(sites, cell, eta_ / rules_.snap.step());
 }
 
 /// Of all patches below a node [m].

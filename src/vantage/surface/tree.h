@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "vantage/surface/fit.h"
-#include "vantage/surface/witness.h"
+#include "vantage/surface/proof.h"
 
 namespace vantage {
 
@@ -33,7 +33,7 @@ struct Change {
 };
 
 /// The Hausdorff tree over sites. Which nodes exist and what they hold is a pure function of the multiset of sites: every decision is one of
-/// fit_cell's or fit_at_limit's over all the sites of a cell. Witnesses only spare the asking.
+/// fit_cell's or fit_at_limit's over all the sites of a cell. Proofs only spare the asking.
 template <int Dim>
 class Tree {
  public:
@@ -52,7 +52,7 @@ class Tree {
   struct Inner {
     std::array<Node, Cell<Dim>::kChildren> children;
     Totals totals;
-    std::unique_ptr<Witness<Dim>> witness;
+    std::unique_ptr<Proof<Dim>> proof;  ///< That the cell had to be split; null if that takes reading all its sites.
   };
 
   Tree(const FitRules<Dim>& rules, double eta, int max_depth) : rules_(rules), eta_(eta), max_depth_(max_depth) {}
@@ -78,7 +78,7 @@ class Tree {
   Change<Dim> build(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites);
   Change<Dim> split(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites);
   bool set_leaf(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites) const;
-  std::unique_ptr<Witness<Dim>> witness_of(std::span<const Site<Dim>> sites) const;
+  std::unique_ptr<Proof<Dim>> prove(std::span<const Site<Dim>> sites, const Cell<Dim>& cell) const;
   Box<Dim> bounds(const Node& node) const;
   Totals totals(const Node& node, const Cell<Dim>& cell) const;
   void sum_up(Inner& inner, const Cell<Dim>& cell) const;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/surface/witness.h"
+#include "vantage/surface/proof.h"
 
 namespace vantage {
 
