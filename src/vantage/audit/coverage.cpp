@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 14;
 
+/// How surely an explorer that looks there calls the node seen.
+int clarity(const Truth& truth) {
+  if (!truth.inside || !truth.visible) return 0;
+  return truth.blurred ? 1 : truth.near ? 2 : 3;
+}
+
 /// The node of a run's lattice that decides whether node `i` of the reference is seen: global index at the spacing h.
 template <int Dim>
 Index<Dim> deciding_node(const Reference<Dim>& reference, const Index<Dim>& i) {
@@ -18,13 +24,13 @@ Index<Dim> deciding_node(const Reference<Dim>& reference, const Index<Dim>& i) {
   const Index<Dim> odd = (grid.first + i).unaryExpr([](std::int32_t v) { return v & 1; });
   const Grid<Dim> choices{1.0, Index<Dim>(i - odd), Index<Dim>(odd.array() + 1)};  // One or two along each axis.
   Index<Dim> chosen = choices.first;
-  for (std::size_t k = 0; k < choices.size(); ++k) {
+  int best = -1;
+  for (std::size_t k = 0; k < choices.size() && best < 3; ++k) {
     const Index<Dim> node = choices.first + 2 * choices.local(k);
-    if (!grid.inside(node)) continue;
-    const Truth& truth = reference.nodes.at(node);
-    if (!truth.inside || !truth.visible || truth.blurred) continue;
+    const int now = grid.inside(node) ? clarity(reference.nodes.at(node)) : -1;
+    if (now <= best) continue;
+    best = now;
     chosen = node;
-    break;
   }
   return (grid.first + chosen).unaryExpr([](std::int32_t v) { return v / 2; });
 }

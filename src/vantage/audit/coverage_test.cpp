@@ -53,6 +53,13 @@ TYPED_TEST(CoverageOf, PerfectMapCoversAllAndAnEmptyOneNothing) {
   EXPECT_EQ(coverage(e.reference, e.map).falsely_free, 0.0);
 }
 
+TYPED_TEST(CoverageOf, ExplorerThatKeepsOffSurfacesCoversAllTheSame) {
+  constexpr int Dim = TypeParam::value;
+  Explored<Dim> e;
+  e.see([&](const Vec<Dim>& p) { return e.truth.distance(p) > 0.5; });
+  EXPECT_EQ(coverage(e.reference, e.map).fraction, 1.0);
+}
+
 TYPED_TEST(CoverageOf, PartOfTheMapCoversItsShare) {
   constexpr int Dim = TypeParam::value;
   Explored<Dim> e;
