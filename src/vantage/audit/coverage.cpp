@@ -56,17 +56,24 @@ Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& 
   require(coarse.spacing == reference.options.voxel,
           fmt::format("audit: explored lattice of {} m: must be the reference's {} m", coarse.spacing, reference.options.voxel));
   const auto sum = [](std::size_t& total, std::size_t part) { total += part; };
-  const std::size_t seen = parallel_reduce<std::size_t>(fine.size(), kChunk, 0, [&](std::size_t begin, std::size_t end) {
-    std::size_t n = 0;
-    for (std::size_t i = begin; i < end; ++i)
-      if (reference.nodes[i].counts() && called_seen(explored, deciding_node(reference, fine.local(i)))) ++n;
-    return n;
-  }, sum);
-  const std::size_t wrong = parallel_reduce<std::size_t>(coarse.size(), kChunk, 0, [&](std::size_t begin, std::size_t end) {
-    std::size_t n = 0;
-    for (std::size_t i = begin; i < end; ++i) n += explored[i] == NodeState::seen && hidden<Dim>(reference, coarse.local(i) + coarse.first) ? 1 : 0;
-    return n;
-  }, sum);
+  const std::size_t seen = parallel_reduce<std::size_t>(
+      fine.size(), kChunk, 0,
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t n = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          if (reference.nodes[i].counts() && called_seen(explored, deciding_node(reference, fine.local(i)))) ++n;
+        return n;
+      },
+      sum);
+  const std::size_t wrong = parallel_reduce<std::size_t>(
+      coarse.size(), kChunk, 0,
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t n = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          n += explored[i] == NodeState::seen && hidden<Dim>(reference, coarse.local(i) + coarse.first) ? 1 : 0;
+        return n;
+      },
+      sum);
   return {static_cast<double>(seen) / static_cast<double>(reference.counted), static_cast<double>(wrong) * reference.node_volume() * (1 << Dim)};
 }
 

@@ -19,7 +19,6 @@ class CoverageOf : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(CoverageOf, Dimensions);
 
-
 template <int Dim>
 struct Explored {
   Explored() : truth(two_rooms<Dim>(4.0)) {

@@ -58,8 +58,8 @@ Scene<Dim> built_in(const std::string& name) {
 double ratio(std::int64_t scans, std::int64_t to) { return static_cast<double>(scans) / static_cast<double>(to); }
 
 void expect_close_to_the_oracle(const std::string& name, const Tally& sum, Tally& all) {
-  SCOPED_TRACE(name + ": scans for 99 %: oracle " + std::to_string(sum.oracle) + ", ours " + std::to_string(sum.ours) + " (missed " + std::to_string(sum.missed) +
-               "), as printed " + std::to_string(sum.printed) + " (missed " + std::to_string(sum.printed_missed) + ")");
+  SCOPED_TRACE(name + ": scans for 99 %: oracle " + std::to_string(sum.oracle) + ", ours " + std::to_string(sum.ours) + " (missed " +
+               std::to_string(sum.missed) + "), as printed " + std::to_string(sum.printed) + " (missed " + std::to_string(sum.printed_missed) + ")");
   EXPECT_EQ(sum.missed, 0);
   EXPECT_LE(ratio(sum.ours, sum.oracle), 1.5);
   EXPECT_GT(ratio(sum.printed, sum.ours), 1.0);

@@ -26,7 +26,8 @@ template <int Dim>
 RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits) {
   RunScore<Dim> score;
   const auto enough = [&] {
-    return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans || (!score.coverage.empty() && score.coverage.back() >= limits.coverage);
+    return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans ||
+           (!score.coverage.empty() && score.coverage.back() >= limits.coverage);
   };
   while (!explorer.finished() && !enough()) {
     const StepRecord<Dim>& step = explorer.step();

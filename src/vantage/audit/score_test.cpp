@@ -10,8 +10,8 @@ namespace {
 
 TEST(IdlePicks, CountedUpToTheScanThatReaches99Percent) {
   EXPECT_EQ(idle_picks({}), 0);
-  EXPECT_EQ(idle_picks(std::vector<double>{0.0004, 0.5, 0.5009, 0.9, 0.9}), 2);          // The first scan is no pick.
-  EXPECT_EQ(idle_picks(std::vector<double>{0.5, 0.98, 0.9899, 0.99, 0.99, 0.99}), 1);    // What comes after 99 % does not count.
+  EXPECT_EQ(idle_picks(std::vector<double>{0.0004, 0.5, 0.5009, 0.9, 0.9}), 2);        // The first scan is no pick.
+  EXPECT_EQ(idle_picks(std::vector<double>{0.5, 0.98, 0.9899, 0.99, 0.99, 0.99}), 1);  // What comes after 99 % does not count.
   EXPECT_EQ(idle_picks(std::vector<double>{0.995, 0.995}), 0);
 }
 
