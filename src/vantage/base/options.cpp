@@ -66,12 +66,13 @@ void Option::parse(std::string_view text, std::string_view full_name) {
 
 void Option::check(std::string_view full_name) const {
   const auto inside = [&](double v) { return v >= range.low && v <= range.high; };  // False for NaN.
-  const bool good = std::visit(Overloaded{[&](const double* v) { return inside(*v); }, [&](const std::int64_t* v) { return inside(static_cast<double>(*v)); },
+  const bool good = std::visit(Overloaded{[&](double* v) { return inside(*v); }, [&](std::int64_t* v) { return inside(static_cast<double>(*v)); },
                                           [&](const Angle& a) {  // The conversion may round an end of the range by a few bits.
                                             const double degrees = *a.radians * kDegreesPerRadian;
                                             return degrees >= range.low * (1.0 - 1e-12) && degrees <= range.high * (1.0 + 1e-12);
                                           },
-                                          [](const auto&) { return true; }},
+                                          // Spelt out: a generic lambda would match `double*` better than `const double*` does.
+                                          [](const bool*) { return true; }, [](const Choice&) { return true; }},
                                value);
   require(good, fmt::format("{} = {}: must be {}", full_name, text(), allowed()));
 }

@@ -7,6 +7,7 @@
 
 #include "vantage/field/field.h"
 #include "vantage/geometry/box.h"
+#include "vantage/planner/verdict.h"
 
 namespace vantage {
 
@@ -25,24 +26,6 @@ struct StepRecord {
   double seen_fraction = 0.0;           ///< seen / (seen + what may still open) [1]
   double path_length = 0.0;             ///< From the previous vantage point to this one [m].
   std::map<std::string, double> seconds;  ///< Wall time per stage; for timing.json only.
-};
-
-/// A region that stays unseen, and why.
-template <int Dim>
-struct UnseenRegion {
-  double volume = 0.0;  ///< [m^Dim]
-  Box<Dim> box;
-  std::string reason;   ///< "enclosed", "no reachable view", "beyond range", "below the threshold", "too fine for the lattice"
-};
-
-/// Why the run ended, and what is left.
-template <int Dim>
-struct Verdict {
-  bool complete = false;
-  std::string reason;          ///< One sentence.
-  double seen_fraction = 0.0;  ///< [1]
-  double seen_low = 0.0, seen_high = 1.0;
-  std::vector<UnseenRegion<Dim>> unseen;  ///< Largest first.
 };
 
 /// A horizontal cut (2D: the plane itself) kept for the pictures: Fig. 2 of the paper for any scene.

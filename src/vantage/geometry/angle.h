@@ -28,6 +28,22 @@ namespace vantage {
   }
 }
 
+/// Angle of (x, y) in (-pi, pi], 0 for the origin [rad]; + - * / only, error below 1e-10.
+[[nodiscard]] inline double angle_of(double y, double x) {
+  const double ax = std::abs(x), ay = std::abs(y), big = std::max(ax, ay);
+  if (!(big > 0.0)) return 0.0;
+  double z = std::min(ax, ay) / big;  // tan of an angle up to 45 degrees,
+  const bool fold = z > 0.41421356237309503;
+  if (fold) z = (z - 1.0) / (z + 1.0);  // brought to 22.5.
+  const double z2 = z * z;
+  double sum = 0.0;
+  for (int k = 23; k >= 1; k -= 2) sum = 1.0 / k - z2 * sum;
+  double angle = z * sum + (fold ? 0.25 * kPi : 0.0);
+  if (ay > ax) angle = 0.5 * kPi - angle;
+  if (x < 0.0) angle = kPi - angle;
+  return y < 0.0 ? -angle : angle;
+}
+
 [[nodiscard]] constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
 [[nodiscard]] constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
 

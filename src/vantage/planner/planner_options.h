@@ -38,7 +38,7 @@ struct PlannerOptions {
   // Stop.
   double stop_volume = 2e-4;      ///< Expected new volume as a share of the seen volume, twice in a row.
   std::int64_t idle_limit = 30;   ///< Picks in a row that gained nothing.
-  double report_volume = 0.0;     ///< Unseen regions below this are not listed [m^Dim]; 0: ten lattice cells.
+  double report_volume = 0.0;     ///< Unseen regions below this are not listed [m^Dim]; 0: a cube of three cells.
 };
 
 void describe(PlannerOptions& options, const OptionVisitor& visit);

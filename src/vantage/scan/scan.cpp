@@ -49,7 +49,7 @@ template <int Dim>
 std::vector<Vec<Dim>> directions(const ScanPattern& pattern) {
   const int columns = pattern.columns(), rows = pattern.rows<Dim>();
   std::vector<std::array<double, 2>> elevations;
-  for (int r = 0; r < rows; ++r) elevations.push_back(sin_cos(Dim == 2 ? 0.0 : pattern.elevation(r)));
+  for (int r = 0; r < rows; ++r) elevations.push_back(sin_cos((Dim - 2) * pattern.elevation(r)));
   std::vector<Vec<Dim>> all;
   all.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   for (int c = 0; c < columns; ++c) {

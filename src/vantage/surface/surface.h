@@ -22,9 +22,9 @@ void describe(SurfaceOptions& options, const OptionVisitor& visit);
 
 /// By the names of the paper's Table I. A split makes all 2^Dim children, so leaves = (2^Dim - 1) * inner nodes + 1.
 struct SurfaceStatistics {
-  std::int64_t points = 0;        ///< Held by the tree.
-  std::int64_t outside = 0;       ///< Left out: outside the domain of interest.
-  std::int64_t not_finite = 0;    ///< Left out: NaN or infinite.
+  std::int64_t points = 0;      ///< Held by the tree.
+  std::int64_t outside = 0;     ///< Left out: outside the domain of interest.
+  std::int64_t not_finite = 0;  ///< Left out: NaN or infinite.
   int depth = 0;
   std::int64_t nodes = 0, leaves = 0;
   std::int64_t fits = 0;          ///< Polygons in 3D, segments in 2D.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "vantage/audit/reference.h"
+
+namespace vantage {
+
+/// How an explored map compares with the truth.
+struct Coverage {
+  double fraction = 0.0;      ///< Of the reference set that is called seen [1].
+  double falsely_free = 0.0;  ///< Called seen although no reachable place sees it: inside an obstacle or shut in [m^Dim].
+};
+
+/// `explored` has the spacing h. A reference node counts as seen when the nearest node of the run's lattice is called seen; of several equally
+/// near the first that is farther than h from surfaces decides, since beside a surface no visibility calls a node seen. Throws bad_input for
+/// another spacing.
+template <int Dim>
+[[nodiscard]] Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& explored);
+
+}  // namespace vantage

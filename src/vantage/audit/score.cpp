@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/audit/score.h"
+
+#include "vantage/audit/coverage.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kDone = 0.99;   // Of the reference set: what a complete run must reach.
+constexpr double kIdle = 0.001;  // Smaller gains are waste.
+
+}  // namespace
+
+std::int64_t idle_picks(std::span<const double> coverage) {
+  std::int64_t idle = 0;
+  for (std::size_t k = 1; k < coverage.size() && coverage[k - 1] < kDone; ++k) idle += coverage[k] - coverage[k - 1] < kIdle ? 1 : 0;
+  return idle;
+}
+
+template <int Dim>
+bool verdict_right(const Verdict<Dim>& verdict, double true_share) {
+  return verdict.complete == (true_share >= kDone) && verdict.seen_low <= true_share && true_share <= verdict.seen_high;
+}
+
+template <int Dim>
+RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits) {
+  RunScore<Dim> score;
+  const auto enough = [&] {
+    return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans ||
+           (!score.coverage.empty() && score.coverage.back() >= limits.coverage);
+  };
+  while (!explorer.finished() && !enough()) {
+    const StepRecord<Dim>& step = explorer.step();
+    const Coverage now = coverage(reference, explorer.states());
+    score.places.push_back(step.vantage);
+    score.path_length += step.path_length;
+    score.coverage.push_back(now.fraction);
+    score.falsely_free = now.falsely_free;
+  }
+  score.finished = explorer.finished();
+  if (score.finished) score.verdict = explorer.verdict();
+  score.verdict_right = score.finished && !score.coverage.empty() && verdict_right(score.verdict, score.coverage.back());
+  return score;
+}
+
+template struct RunScore<2>;
+template struct RunScore<3>;
+template bool verdict_right<2>(const Verdict<2>&, double);
+template bool verdict_right<3>(const Verdict<3>&, double);
+template RunScore<2> score_run<2>(Explorer<2>&, const Reference<2>&, const ScoreLimits&);
+template RunScore<3> score_run<3>(Explorer<3>&, const Reference<3>&, const ScoreLimits&);
+
+}  // namespace vantage

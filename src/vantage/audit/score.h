@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <limits>
+
+#include "vantage/audit/oracle.h"
+#include "vantage/explore/explore.h"
+
+namespace vantage {
+
+/// How good a run was, judged by the truth.
+template <int Dim>
+  requires SpatialDim<Dim>
+struct RunScore {
+  std::vector<Vec<Dim>> places;  ///< Of the scans, in their order [m].
+  std::vector<double> coverage;  ///< Share of the reference set seen after each [1].
+  double falsely_free = 0.0;     ///< At the end, see Coverage [m^Dim].
+  double path_length = 0.0;      ///< [m]
+  bool finished = false;         ///< The explorer ended by itself; only then is there a verdict to judge.
+  Verdict<Dim> verdict;          ///< What it said at its end.
+  bool verdict_right = false;    ///< See verdict_right().
+
+  [[nodiscard]] std::optional<std::int64_t> scans_to(double share) const { return vantage::scans_to(coverage, share); }
+};
+
+/// When to stop stepping although the explorer has not finished.
+struct ScoreLimits {
+  std::int64_t max_scans = std::numeric_limits<std::int64_t>::max();
+  double coverage = 2.0;  ///< Enough is seen; above 1: never.
+};
+
+/// Scans after the first, up to the one that reaches 99 %, that added less than 0.1 % of the reference set.
+[[nodiscard]] std::int64_t idle_picks(std::span<const double> coverage);
+
+/// Was "complete" said exactly when at least 99 % were seen, and did the true share lie within the stated bounds?
+template <int Dim>
+[[nodiscard]] bool verdict_right(const Verdict<Dim>& verdict, double true_share);
+
+/// Steps the explorer to its end or a limit and judges the map after every scan.
+template <int Dim>
+[[nodiscard]] RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits = {});
+
+}  // namespace vantage

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/explore/explore.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "vantage/base/error.h"
+#include "vantage/belief/belief.h"
+#include "vantage/planner/planner.h"
+#include "vantage/scan/fill.h"
+
+namespace vantage {
+namespace {
+
+double length(std::span<const auto> path) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i] - path[i - 1]).norm();
+  return sum;
+}
+
+/// Tells the observer which stage runs and takes its time.
+class Stopwatch {
+ public:
+  Stopwatch(Observer* observer, std::map<std::string, double>& seconds) : observer_(observer), seconds_(seconds) {}
+  template <class Work>
+  auto operator()(const std::string& stage, Work&& work) {
+    if (observer_ != nullptr) observer_->stage(stage);
+    const auto begin = std::chrono::steady_clock::now();
+    struct Stop {
+      double& total;
+      std::chrono::steady_clock::time_point begin;
+      ~Stop() { total += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); }
+    } stop{seconds_[stage], begin};
+    return work();
+  }
+
+ private:
+  Observer* observer_;
+  std::map<std::string, double>& seconds_;
+};
+
+/// Kept for the pictures: the first few steps, then ever rarer.
+bool worth_keeping(std::size_t scans) { return scans <= 4 || (scans & (scans - 1)) == 0; }
+
+}  // namespace
+
+void describe(ExploreOptions& o, const OptionVisitor& visit) {
+  visit("voxel", o.voxel, "m", Range{1e-4, 1e3}, "lattice spacing h; doors should be three of them wide");
+  visit("max_scans", o.max_scans, "scans", Range{1, 1e6}, "stop after so many, complete or not");
+  visit("seed", o.seed, "", Range{0, 9e15}, "of everything random in the planner");
+  visit("fill", o.fill, "know flat walls between the rays of a scan (for the belief, never for the surface)");
+  visit("snapshots", o.snapshots, "keep cuts through belief and metric for the report");
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+struct Explorer<Dim>::Impl {
+  Sensor<Dim>& sensor;
+  Observer* observer;
+  ExploreOptions options;
+  Box<Dim> domain;
+  Grid<Dim> window;
+  HausdorffTree<Dim> surface;
+  Belief<Dim> belief;
+  Vec<Dim> vantage_point;
+  Decision<Dim> decision;
+  std::optional<Planner<Dim>> planner;  // Made with the first scan, which tells the sensor's range.
+  std::vector<StepRecord<Dim>> steps;
+  std::vector<Snapshot<Dim>> snapshots;
+  std::vector<Vec<Dim>> path, visited;
+  Verdict<Dim> verdict;
+  bool finished = false;
+
+  static Grid<Dim> lattice(const Box<Dim>& domain, const Vec<Dim>& start, const ExploreOptions& options) {
+    check_options(options, "explore");
+    require(!domain.empty(), "explore.domain: is empty");
+    require(domain.contains(start), fmt::format("start = {}: must lie in the domain {} .. {} [m]", text(start), text(domain.low), text(domain.high)));
+    double nodes = 1.0;
+    for (int a = 0; a < Dim; ++a) nodes *= std::max(1.0, domain.size()[a] / options.voxel);
+    require_memory(nodes, 60.0, fmt::format("explore.voxel = {} m: the lattice of {:.3g} nodes", options.voxel, nodes));
+    if (nodes > 2.0e9) throw Error(ErrorCode::memory, fmt::format("explore.voxel = {} m: the lattice of {:.3g} nodes exceeds 2e9", options.voxel, nodes));
+    return window_over(domain, options.voxel);
+  }
+
+  static std::string text(const Vec<Dim>& p) {
+    std::string out;
+    for (int a = 0; a < Dim; ++a) out += fmt::format("{}{:.6g}", a > 0 ? "," : "", p[a]);
+    return out;
+  }
+
+  Impl(Sensor<Dim>& s, const Box<Dim>& d, const Vec<Dim>& start, const ExploreOptions& o, Observer* watcher)
+      : sensor(s), observer(watcher), options(o), domain(d), window(lattice(d, start, o)), surface(d, o.surface), belief(window, o.surface.eta), vantage_point(start) {
+    check_options(options.visibility, "visibility");
+    check_options(options.planner, "planner");
+  }
+
+  /// The part of the lattice that a scan can change.
+  Grid<Dim> window_of(const Scan<Dim>& scan) const {
+    Box<Dim> reach;
+    reach.extend(scan.origin);
+    return intersection(window_over(reach.grown(scan.pattern.max_range), window.spacing), window);
+  }
+
+  const StepRecord<Dim>& step() {
+    StepRecord<Dim> record;
+    Stopwatch timed(observer, record.seconds);
+    record.scan = static_cast<int>(steps.size());
+    record.score = decision.score;
+    record.path_length = length(std::span<const Vec<Dim>>(decision.path));
+    const double seen_before = steps.empty() ? 0.0 : steps.back().seen_volume;
+    const double eta = options.surface.eta;
+
+    const Scan<Dim> scan = timed("scan", [&] { return sensor.scan(vantage_point, record.scan); });  // LIDAR(x_c)
+    const Grid<Dim> near = window_of(scan);
+    const SurfaceUpdate<Dim> update = timed("surface", [&] { return surface.insert(hit_points(scan)); });  // Sec. IV-A
+    const Field<Dim> phi = timed("visibility", [&] {                                                       // Sec. IV-B
+      const std::vector<Patch<Dim>> patches = surface.patches(near.bounds().grown(2.0 * near.spacing + eta));
+      return visibility<Dim>(patches, scan, near, eta, options.visibility);
+    });
+    timed("belief", [&] {  // psi <- max(psi, phi), redistance
+      belief.unite(phi, options.fill ? fill_between_rays(scan, 0.5 * window.spacing) : std::vector<Vec<Dim>>{});
+    });
+    if (!planner) planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
+    record.seen_volume = belief.seen_volume();
+    record.new_volume = std::max(0.0, record.seen_volume - seen_before);
+    decision = timed("planner", [&] { return planner->choose(belief.view(), scan.origin, record.new_volume); });  // arg max E, Eq. (1)
+    verdict = timed("verdict", [&] { return planner->assess(belief.view()); });
+
+    record.vantage = scan.origin;
+    record.points = update.points;
+    record.next_score = decision.score;
+    record.expected_volume = decision.expected_volume;
+    record.candidates = decision.candidates;
+    record.seen_fraction = verdict.seen_fraction;
+    visited.push_back(scan.origin);
+    path.insert(path.end(), decision.found ? decision.path.begin() : decision.path.end(), decision.path.end());
+    if (!decision.found && path.empty()) path.push_back(scan.origin);
+    steps.push_back(record);
+    finished = !decision.found || static_cast<std::int64_t>(steps.size()) >= options.max_scans;
+    judge();
+    if (options.snapshots && (finished || worth_keeping(steps.size()))) timed("snapshot", [&] { snapshots.push_back(snapshot()); });
+    steps.back().seconds = record.seconds;
+    vantage_point = decision.position;
+    return steps.back();
+  }
+
+  void judge() {
+    using End = typename Decision<Dim>::End;
+    verdict.complete = decision.end == End::nothing_can_open || decision.end == End::below_threshold;
+    switch (decision.end) {
+      case End::nothing_can_open: verdict.reason = "No reachable place shows anything new."; break;
+      case End::below_threshold: verdict.reason = fmt::format("The best place would show less than {:g} of the seen volume, twice in a row.", options.planner.stop_volume); break;
+      case End::idle: verdict.reason = fmt::format("{} scans in a row showed nothing new.", options.planner.idle_limit); break;
+      case End::unreachable: verdict.reason = "Unseen space remains, but no place to scan from can be reached with the clearance asked for."; break;
+      case End::none: verdict.reason = finished ? fmt::format("The limit of {} scans is reached.", options.max_scans) : "The exploration is not finished."; break;
+    }
+  }
+
+  Snapshot<Dim> snapshot() const;
+};
+
+/// Horizontal cut at the height of the scanner; the metric on every few nodes of it.
+template <int Dim>
+  requires SpatialDim<Dim>
+Snapshot<Dim> Explorer<Dim>::Impl::snapshot() const {
+  constexpr std::size_t kPlaces = 4000;
+  const BeliefView<Dim> view = belief.view();
+  Snapshot<Dim> cut;
+  cut.step = static_cast<int>(steps.size()) - 1;
+  cut.vantage = visited;
+  cut.next = decision.position;
+  cut.has_next = decision.found;
+  const Index<Dim> level = window.nearest(visited.back()).cwiseMax(0).cwiseMin((window.extent.array() - 1).matrix());
+  cut.height = (Dim - 2) * window.position(level)[Dim - 1];
+  Grid<2> plane{window.spacing, window.first.template head<2>(), window.extent.template head<2>()};
+  cut.state = Field<2, NodeState>(plane);
+  for (std::size_t i = 0; i < plane.size(); ++i) {
+    Index<Dim> node = level;
+    node.template head<2>() = plane.local(i);
+    cut.state[i] = view.state.at(node);
+  }
+  if (!decision.found) return cut;
+  std::int32_t stride = 1;
+  while (plane.size() / static_cast<std::size_t>(stride * stride) > kPlaces) ++stride;
+  Box<2> bounds = plane.bounds();
+  cut.metric = Field<2, float>(window_over(bounds, plane.spacing * stride));
+  std::vector<Vec<Dim>> places;
+  for (std::size_t i = 0; i < cut.metric.values.size(); ++i) {
+    Vec<Dim> p = window.position(level);
+    p.template head<2>() = cut.metric.window.position(i);
+    places.push_back(p);
+  }
+  const std::vector<double> values = planner->evaluate(view, places);
+  for (std::size_t i = 0; i < values.size(); ++i) cut.metric[i] = static_cast<float>(values[i]);
+  return cut;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Explorer<Dim>::Explorer(Sensor<Dim>& sensor, const Box<Dim>& domain, const Vec<Dim>& start, const ExploreOptions& options, Observer* observer)
+    : impl_(std::make_unique<Impl>(sensor, domain, start, options, observer)) {}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Explorer<Dim>::~Explorer() = default;
+
+template <int Dim>
+  requires SpatialDim<Dim>
+const StepRecord<Dim>& Explorer<Dim>::step() {
+  return impl_->step();
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+bool Explorer<Dim>::finished() const {
+  return impl_->finished;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Verdict<Dim> Explorer<Dim>::verdict() const {
+  return impl_->verdict;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+const Grid<Dim>& Explorer<Dim>::window() const {
+  return impl_->window;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+const std::vector<StepRecord<Dim>>& Explorer<Dim>::steps() const {
+  return impl_->steps;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+const std::vector<Snapshot<Dim>>& Explorer<Dim>::snapshots() const {
+  return impl_->snapshots;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+const std::vector<Vec<Dim>>& Explorer<Dim>::path() const {
+  return impl_->path;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+const HausdorffTree<Dim>& Explorer<Dim>::surface() const {
+  return impl_->surface;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Field<Dim, NodeState> Explorer<Dim>::states() const {
+  return impl_->belief.view().state;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Field<Dim> Explorer<Dim>::psi() const {
+  return impl_->belief.view().psi;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Field<Dim> Explorer<Dim>::metric() const {
+  Field<Dim> field(impl_->window, std::numeric_limits<float>::quiet_NaN());
+  for (const auto& [node, value] : impl_->decision.scored) field[node] = value;
+  return field;
+}
+
+template class Explorer<2>;
+template class Explorer<3>;
+
+}  // namespace vantage

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vantage/field/belief_view.h"
+#include "vantage/planner/ray_march.h"
+
+namespace vantage {
+
+/// A lattice face between a seen node and an unseen one: an element of the boundary of the occlusion set.
+template <int Dim>
+struct BoundaryFace {
+  std::size_t seen = 0, unseen = 0;  ///< Linear indices.
+  int direction = 0;                 ///< 2 axis + (1 if the unseen node is the lower one).
+  Vec<Dim> center;                   ///< [m]
+  Vec<Dim> normal;                   ///< Mean unit normal from grad psi, into the seen space.
+  double known_distance = 0.0;       ///< Of the nearer of its nodes to the known surface [m].
+  double frontal = 0.0;              ///< Best cosine at which an earlier observer in line of sight has looked at it [1].
+  int frontal_views = 0;             ///< How many looked at it at a cosine above 0.08.
+  std::array<std::uint8_t, 3> bin{};  ///< Distance, evidence, company.
+  double probability = 0.5;          ///< That it opens when looked at [1].
+
+  /// Unit step from the unseen node to the seen one.
+  [[nodiscard]] Vec<Dim> step() const {
+    Vec<Dim> e = Vec<Dim>::Zero();
+    e[direction / 2] = direction % 2 == 0 ? -1.0 : 1.0;
+    return e;
+  }
+};
+
+/// Which boundary faces are true shadow boundary, learned while exploring (planner.md Sec. 2): faces alike in distance to the known surface, in how
+/// frontally they were looked at, and in company share one Beta count of how often such faces opened.
+template <int Dim>
+  requires SpatialDim<Dim>
+class OpeningModel {
+ public:
+  static constexpr int kDistanceBins = 5, kEvidenceBins = 8, kCompanyBins = 3;
+  enum class Rule { learned, masks };  ///< masks: probability 1 or 0 by the two rules of method.md Sec. 5.
+
+  explicit OpeningModel(Rule rule) : rule_(rule) {}
+
+  /// Takes in the belief after a scan from `observer`: counts which of the old faces in view opened, then lists the faces anew.
+  void update(const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range);
+
+  [[nodiscard]] std::span<const BoundaryFace<Dim>> faces() const { return faces_; }
+  /// Per unseen node the largest probability of its faces; 0 elsewhere.
+  [[nodiscard]] const Field<Dim>& openness() const { return openness_; }
+
+ private:
+  void learn(const RayMarch<Dim>& rays, const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range);
+  void list_faces(const BeliefView<Dim>& view);
+  void gather_evidence(const RayMarch<Dim>& rays, double max_range);
+  void classify(const Grid<Dim>& grid);
+
+  Rule rule_;
+  std::vector<Vec<Dim>> observers_;
+  std::vector<BoundaryFace<Dim>> faces_;  // In order of (seen, direction).
+  Field<Dim> openness_, failures_;        // failures_: F of planner.md, per unseen node.
+  std::array<std::array<double, 2>, kDistanceBins * kEvidenceBins * kCompanyBins> counts_{};  // Opened, stayed.
+};
+
+}  // namespace vantage

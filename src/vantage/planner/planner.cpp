@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/planner/planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "vantage/base/parallel.h"
+#include "vantage/field/fast_marching.h"
+#include "vantage/planner/boundary_metric.h"
+#include "vantage/planner/candidates.h"
+
+namespace vantage {
+namespace {
+
+/// In 2D a quarter of the rays does, and twice the candidates are affordable (planner.md Sec. 3, 4).
+template <int Dim>
+std::size_t fewer(std::int64_t rays) {
+  return static_cast<std::size_t>(std::max<std::int64_t>(rays >> (2 * (3 - Dim)), 16));
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::size_t target, const Vec<Dim>& here) {
+  // The node beside the scanner that the flood started from.
+  const Grid<Dim>& grid = reachable.window;
+  std::size_t home = target;
+  double nearest = kInfinity;
+  const Index<Dim> center = grid.nearest(here);
+  for (int code = 0, all = 1 << (2 * Dim); code < all; ++code) {
+    Index<Dim> node = center;
+    for (int a = 0; a < Dim; ++a) node[a] += (code >> (2 * a) & 3) - 1;
+    if (!grid.inside(node) || reachable.at(node) == 0) continue;
+    const double distance = (grid.position(node) - here).squaredNorm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    home = grid.linear(node);
+  }
+  const Seed seed{target, 0.0F};
+  std::vector<Vec<Dim>> path = descend(fast_march_to(reachable, std::span(&seed, 1), home), home);
+  path.insert(path.begin(), here);
+  return path;
+}
+
+}  // namespace
+
+void describe(PlannerOptions& o, const OptionVisitor& visit) {
+  using namespace std::string_literals;
+  visit("metric", o.metric, Choices{"ray", "boundary"}, "form of E: rays to the shadow boundary, or the paper's sum over its elements");
+  visit("volume_weight", o.volume_weight, "", Range{0, 1e6}, "ray form: weight of the expected new volume");
+  visit("solid_angle_weight", o.solid_angle_weight, "", Range{0, 1e6}, "ray form: weight of the shadow boundary's solid angle");
+  visit("area_weight", o.area_weight, "", Range{0, 1e6}, "ray form: weight of Eq. (1) with line of sight");
+  visit("lambda_factor", o.lambda_factor, "", Range{0, 1e3}, "opacity of the unseen over the measured one; 0 is optimistic");
+  visit("learned", o.learned, "weigh faces by the learned probability to open; false: the two hard masks");
+  visit("rays", o.rays, "rays", Range{16, 1e6}, "for the first look at a candidate in 3D; 2D: a quarter");
+  visit("refine_rays", o.refine_rays, "rays", Range{16, 1e7}, "for the second look at the best in 3D; 2D: a quarter");
+  visit("refine", o.refine, "candidates", Range{1, 1e6}, "looked at twice");
+  visit("elements", o.elements, Choices{"faces", "smeared", "printed"}, "boundary sum: one element a face, smeared delta, or the delta as printed");
+  visit("facing", o.facing, Choices{"seen", "behind", "absolute"}, "boundary sum: which side counts; behind is as printed");
+  visit("mask", o.mask, Choices{"both", "known", "none"}, "boundary sum: without known surface and what was looked at frontally, without known surface, all as printed");
+  visit("normalise", o.normalise, "boundary sum: divide by the distance; false as printed");
+  visit("line_of_sight", o.line_of_sight, "boundary sum: only elements in view; false as printed");
+  visit("tau_power", o.tau_power, "", Range{0, 4}, "depth factor tau = r^-p, in quarters; 0 is the paper's");
+  visit("candidates", o.candidates, "places", Range{1, 1e6}, "evaluated at a step in 3D; 2D: twice as many");
+  visit("curvature", o.curvature, "", Range{0, 100}, "M h: candidates have -lap(psi) > M");
+  visit("printed_curvature", o.printed_curvature, "candidates by lap(psi) > M, as printed");
+  visit("clearance", o.clearance, "m", Range{0, 1e3}, "of a vantage point and of the path to known obstacles");
+  visit("stop_volume", o.stop_volume, "", Range{0, 1}, "stop when the expected new volume is below this share of the seen, twice in a row");
+  visit("idle_limit", o.idle_limit, "scans", Range{1, 1e6}, "stop after so many in a row that gained nothing");
+  visit("report_volume", o.report_volume, "m^d", Range{0, 1e9}, "smaller unseen regions are not listed; 0: 27 cells (2D: 9)");
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Planner<Dim>::Planner(const PlannerOptions& options, double max_range, std::uint64_t seed)
+    : options_(options), max_range_(max_range), seed_(seed), opening_(options.learned ? OpeningModel<Dim>::Rule::learned : OpeningModel<Dim>::Rule::masks) {
+  check_options(options, "planner");
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+RayMarch<Dim> Planner<Dim>::rays(const BeliefView<Dim>& view) const {
+  return RayMarch<Dim>(view, opening_.openness(), {opacity_, max_range_, options_.tau_power});
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+double Planner<Dim>::mix(const RaySums& sums) const {
+  const auto term = [](double weight, double value, double largest) { return largest > 0.0 ? weight * value / largest : 0.0; };
+  return term(options_.volume_weight, sums.volume, scale_.volume) + term(options_.solid_angle_weight, sums.solid_angle, scale_.solid_angle) +
+         term(options_.area_weight, sums.area, scale_.area);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) -> std::vector<Scored> {
+  const RayMarch<Dim> march = rays(view);
+  const std::uint64_t turn = seed_ * 1000003 + visited_.size();
+  std::vector<Scored> scored(nodes.size());
+  const auto look = [&](std::span<Scored> some, std::int64_t count) {
+    const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(count), turn + static_cast<std::uint64_t>(count));
+    parallel_for(some.size(), 1, [&](std::size_t i) { some[i].sums = march.look(view.window().position(some[i].node), directions); });
+  };
+  const auto rank = [&] {
+    scale_ = {};
+    for (const Scored& s : scored) {
+      scale_.volume = std::max(scale_.volume, s.sums.volume);
+      scale_.solid_angle = std::max(scale_.solid_angle, s.sums.solid_angle);
+      scale_.area = std::max(scale_.area, s.sums.area);
+    }
+    for (Scored& s : scored) s.score = mix(s.sums);
+    std::sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
+  };
+  for (std::size_t i = 0; i < nodes.size(); ++i) scored[i].node = nodes[i];
+  look(scored, options_.rays);
+  rank();
+  const std::size_t best = std::min<std::size_t>(scored.size(), static_cast<std::size_t>(options_.refine));
+  look(std::span(scored).first(best), options_.refine_rays);
+  // The rest keeps its first look; only those looked at twice may win.
+  std::vector<Scored> rest(scored.begin() + static_cast<std::ptrdiff_t>(best), scored.end());
+  scored.resize(best);
+  rank();
+  for (Scored& s : rest) s.score = mix(s.sums);
+  scored.insert(scored.end(), rest.begin(), rest.end());
+  return scored;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+auto Planner<Dim>::score_by_boundary(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) const -> std::vector<Scored> {
+  const RayMarch<Dim> march = rays(view);
+  const std::vector<BoundaryElement<Dim>> elements = boundary_elements(view, opening_.faces(), options_);
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_ * 1000003 + visited_.size());
+  std::vector<Scored> scored(nodes.size());
+  parallel_for(nodes.size(), 1, [&](std::size_t i) {
+    scored[i].node = nodes[i];
+    scored[i].score = boundary_metric<Dim>(elements, march, view.window().position(nodes[i]), options_);
+  });
+  std::sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
+  // The end of the run is judged by expected volume whatever the metric (method.md Sec. 7): that of the best few.
+  parallel_for(std::min<std::size_t>(scored.size(), 64), 1, [&](std::size_t i) { scored[i].sums = march.look(view.window().position(scored[i].node), directions); });
+  return scored;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+typename Decision<Dim>::End Planner<Dim>::end_of(const Decision<Dim>& decision, double seen_volume) {
+  using End = typename Decision<Dim>::End;
+  if (!decision.found) return opening_.faces().empty() ? End::nothing_can_open : End::unreachable;
+  below_ = decision.expected_volume < options_.stop_volume * seen_volume ? below_ + 1 : 0;
+  if (!(decision.expected_volume > 0.0)) return End::nothing_can_open;
+  if (below_ >= 2) return End::below_threshold;
+  return idle_ >= options_.idle_limit ? End::idle : End::none;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume) {
+  using Metric = PlannerOptions::Metric;
+  visited_.push_back(here);
+  opening_.update(view, here, max_range_);
+  opacity_ = options_.lambda_factor * measured_opacity(view);
+  reachable_ = reachable_nodes(view, here, options_.clearance);
+
+  double seen_volume = static_cast<double>(std::count(view.state.values.begin(), view.state.values.end(), NodeState::seen));
+  for (int a = 0; a < Dim; ++a) seen_volume *= view.window().spacing;
+  idle_ = new_volume < 1e-5 * seen_volume ? idle_ + 1 : 0;
+
+  const std::vector<std::size_t> medial = medial_nodes<Dim>(view, reachable_, visited_, options_);
+  const std::size_t limit = static_cast<std::size_t>(options_.candidates) * (4 - Dim);
+  const std::uint64_t turn = seed_ * 7919 + visited_.size();
+  const std::vector<std::size_t> nodes = choose_candidates<Dim>(medial, opening_.faces(), rays(view), view.window(), limit, turn);
+  const std::vector<Scored> scored = options_.metric == Metric::ray ? score_by_rays(view, nodes) : score_by_boundary(view, nodes);
+
+  Decision<Dim> decision;
+  decision.candidates = static_cast<std::int64_t>(scored.size());
+  for (const Scored& s : scored) decision.scored.emplace_back(s.node, static_cast<float>(s.score));
+  if (!scored.empty()) {
+    // Ties go to the nearer, then to the smaller index.
+    const Scored& best = *std::min_element(scored.begin(), scored.end(), [&](const Scored& a, const Scored& b) {
+      const auto rank = [&](const Scored& s) { return std::tuple(-s.score, (view.window().position(s.node) - here).squaredNorm(), s.node); };
+      return rank(a) < rank(b);
+    });
+    decision.found = true;
+    decision.position = view.window().position(best.node);
+    decision.score = best.score;
+    decision.area = best.sums.area;
+    for (const Scored& s : scored) decision.expected_volume = std::max(decision.expected_volume, s.sums.volume);
+    decision.path = safe_path(reachable_, best.node, here);
+  }
+  decision.end = end_of(decision, seen_volume);
+  decision.found = decision.end == Decision<Dim>::End::none;
+  return decision;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::vector<double> Planner<Dim>::evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const {
+  const RayMarch<Dim> march = rays(view);
+  const bool by_rays = options_.metric == PlannerOptions::Metric::ray;
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays / 2), seed_);
+  const std::vector<BoundaryElement<Dim>> elements = by_rays ? std::vector<BoundaryElement<Dim>>{} : boundary_elements(view, opening_.faces(), options_);
+  std::vector<double> values(places.size(), std::numeric_limits<double>::quiet_NaN());
+  parallel_for(places.size(), 1, [&](std::size_t i) {
+    const Index<Dim> node = view.window().nearest(places[i]);
+    if (!view.window().inside(node) || !view.seen(view.window().linear(node))) return;
+    values[i] = by_rays ? mix(march.look(places[i], directions)) : boundary_metric<Dim>(elements, march, places[i], options_);
+  });
+  return values;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Verdict<Dim> Planner<Dim>::assess(const BeliefView<Dim>& view) const {
+  double least = options_.report_volume;
+  if (least == 0.0) {
+    least = 1.0;
+    for (int a = 0; a < Dim; ++a) least *= 3.0 * view.window().spacing;
+  }
+  return vantage::assess<Dim>(view, opening_.faces(), reachable_, opacity_, least);
+}
+
+template class Planner<2>;
+template class Planner<3>;
+
+}  // namespace vantage

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vantage/field/belief_view.h"
+#include "vantage/planner/opening.h"
+#include "vantage/planner/planner_options.h"
+#include "vantage/planner/verdict.h"
+
+namespace vantage {
+
+/// Where to go next, or why nowhere.
+template <int Dim>
+struct Decision {
+  bool found = false;
+  Vec<Dim> position = Vec<Dim>::Zero();    ///< arg max E [m]
+  double score = 0.0;                      ///< max E: mixed terms [1] for rays, Eq. (1) for the boundary sum [m^(Dim-1)].
+  double area = 0.0;                       ///< Eq. (1) with line of sight at the chosen place [m^(Dim-1)].
+  double expected_volume = 0.0;            ///< Largest over the candidates [m^Dim].
+  std::int64_t candidates = 0;             ///< Evaluated.
+  std::vector<Vec<Dim>> path;              ///< From where we are to `position` [m].
+  enum class End { none, nothing_can_open, below_threshold, idle, unreachable } end = End::none;
+  std::vector<std::pair<std::size_t, float>> scored;  ///< Candidates (linear index) and their E.
+};
+
+/// Chooses vantage points by the visibility metric (paper Eq. 1, Sec. III-A). A function of the ordered scans: no hidden randomness.
+template <int Dim>
+  requires SpatialDim<Dim>
+class Planner {
+ public:
+  /// `max_range` is the sensor's [m].
+  Planner(const PlannerOptions& options, double max_range, std::uint64_t seed);
+
+  /// arg max E after a scan at `here`, which saw `new_volume` for the first time [m^Dim].
+  [[nodiscard]] Decision<Dim> choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume);
+
+  /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be.
+  [[nodiscard]] std::vector<double> evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const;
+
+  /// Shares and regions as of the last decision.
+  [[nodiscard]] Verdict<Dim> assess(const BeliefView<Dim>& view) const;
+
+ private:
+  struct Scored {
+    std::size_t node = 0;
+    RaySums sums;
+    double score = 0.0;
+  };
+  [[nodiscard]] std::vector<Scored> score_by_rays(const BeliefView<Dim>& view, std::span<const std::size_t> nodes);
+  [[nodiscard]] std::vector<Scored> score_by_boundary(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) const;
+  [[nodiscard]] typename Decision<Dim>::End end_of(const Decision<Dim>& decision, double seen_volume);
+  [[nodiscard]] double mix(const RaySums& sums) const;
+  [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
+
+  PlannerOptions options_;
+  double max_range_;
+  std::uint64_t seed_;
+  OpeningModel<Dim> opening_;
+  std::vector<Vec<Dim>> visited_;
+  Field<Dim, std::uint8_t> reachable_;
+  RaySums scale_;        // Largest of each term over the candidates of the last decision.
+  double opacity_ = 0.0;
+  int below_ = 0, idle_ = 0;  // Picks in a row.
+};
+
+}  // namespace vantage

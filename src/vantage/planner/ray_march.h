@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vantage/field/belief_view.h"
+
+namespace vantage {
+
+/// `count` unit directions spread evenly over the circle or sphere (Fibonacci lattice), turned at random by the seed, (count, Dim).
+template <int Dim>
+[[nodiscard]] std::vector<Vec<Dim>> spread_directions(std::size_t count, std::uint64_t seed);
+template <>
+std::vector<Vec<2>> spread_directions<2>(std::size_t count, std::uint64_t seed);
+template <>
+std::vector<Vec<3>> spread_directions<3>(std::size_t count, std::uint64_t seed);
+
+/// What the rays from one place add up to, before the terms are mixed.
+struct RaySums {
+  double volume = 0.0;       ///< Expected new volume: sum of w T r^(d-1) dt dOmega [m^Dim].
+  double solid_angle = 0.0;  ///< Of the shadow boundary in view: sum of w dOmega [sr or rad].
+  double area = 0.0;         ///< Eq. (1) with line of sight: sum of w tau r^(d-1) dOmega [m^(Dim-1)].
+};
+
+/// Rays through the belief. They move through seen space by psi and stop at the first node that is not seen.
+template <int Dim>
+  requires SpatialDim<Dim>
+class RayMarch {
+ public:
+  struct Medium {
+    double lambda = 0.0;      ///< Opacity of the unseen [1/m].
+    double max_range = 80.0;  ///< [m]
+    double tau_power = 0.0;   ///< tau = r^-p.
+  };
+  /// `openness`: for each unseen node the probability that it opens when looked at, 0 where nothing is known [1]. Both must outlive this.
+  RayMarch(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium);
+
+  /// Ray form of the metric (method.md Sec. 5) over `directions`, which share the full sphere evenly.
+  [[nodiscard]] RaySums look(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const;
+
+  /// True if the straight line from `from` runs through seen nodes until it is within `slack` of `to` [m].
+  [[nodiscard]] bool line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, double slack) const;
+  [[nodiscard]] double spacing() const { return view_.window().spacing; }
+
+ private:
+  struct Stop {
+    double range = 0.0;            // [cells]
+    std::size_t node = 0;          // First node not seen.
+    bool inside = false;           // False: left the domain or the range.
+  };
+  [[nodiscard]] Stop march(const Vec<Dim>& start, const Vec<Dim>& direction, double limit) const;
+  [[nodiscard]] bool locate(const Vec<Dim>& place, std::size_t& node) const;
+  void add_beyond(const Vec<Dim>& start, const Vec<Dim>& direction, const Stop& stop, double solid_angle, RaySums& sums) const;
+
+  BeliefView<Dim> view_;
+  const Field<Dim>& openness_;
+  Medium medium_;
+};
+
+/// x^-power, with the power rounded down to quarters (+ - * / sqrt only).
+[[nodiscard]] double inverse_power(double x, double power);
+
+/// Share of the seen space's walls per volume as a mean free path of the place itself: A / (4 V) in 3D, A / (pi V) in 2D [1/m], with A the known
+/// surface, from its lattice faces, and V the seen volume. 0 while nothing is known.
+template <int Dim>
+[[nodiscard]] double measured_opacity(const BeliefView<Dim>& view);
+
+}  // namespace vantage

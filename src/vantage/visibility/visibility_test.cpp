@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/visibility/visibility.h"
+
+#include <gtest/gtest.h>
+
+#include "vantage/base/parallel.h"
+#include "vantage/visibility/depth_image.h"
+
+namespace vantage {
+namespace {
+
+template <class T>
+class Visibility : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Visibility, Dimensions);
+
+/// Range to a ball along a unit direction from the origin; infinity if missed.
+template <int Dim>
+double ball_range(const Vec<Dim>& direction, const Vec<Dim>& center, double radius) {
+  const double along = direction.dot(center), off2 = center.squaredNorm() - along * along;
+  return along > 0.0 && off2 < radius * radius ? along - std::sqrt(radius * radius - off2) : kInfinity;
+}
+
+template <int Dim>
+Vec<Dim> ball_center() {
+  Vec<Dim> c = Vec<Dim>::Zero();
+  c[0] = 4.0;
+  c[1] = 1.0;
+  return c;
+}
+constexpr double kRadius = 1.0;
+
+/// Scan from the origin of one ball in empty space.
+template <int Dim>
+Scan<Dim> scan_of_ball(double step_deg = 0.5) {
+  Scan<Dim> scan;
+  scan.pattern.step = radians(step_deg);
+  scan.pattern.max_range = 9.0;
+  for (const Vec<Dim>& d : directions<Dim>(scan.pattern)) {
+    const double range = ball_range<Dim>(d, ball_center<Dim>(), kRadius);
+    scan.ranges.push_back(range <= scan.pattern.max_range ? static_cast<float>(range) : kNoReturn);
+  }
+  return scan;
+}
+
+template <int Dim>
+Grid<Dim> window_around_origin(double half_side, double h) {
+  return window_over(Box<Dim>{Vec<Dim>::Constant(-half_side), Vec<Dim>::Constant(half_side)}, h);
+}
+
+template <int Dim>
+std::vector<Patch<Dim>> points_of(const Scan<Dim>& scan) {
+  std::vector<Patch<Dim>> patches;
+  for (const Vec<Dim>& p : hit_points(scan)) patches.push_back(point_patch<Dim>(p));
+  return patches;
+}
+
+TYPED_TEST(Visibility, ShadowOfABall) {
+  constexpr int Dim = TypeParam::value;
+  const Scan<Dim> scan = scan_of_ball<Dim>();
+  const std::vector<Patch<Dim>> patches = points_of(scan);
+  const Field<Dim> phi = visibility<Dim>(patches, scan, window_around_origin<Dim>(7.0, 0.25), 0.02);
+  int seen = 0, hidden = 0, wrongly_hidden = 0;
+  for (std::size_t i = 0; i < phi.values.size(); ++i) {
+    const Vec<Dim> p = phi.window.position(i);
+    const double range = p.norm();
+    if (range == 0.0) continue;
+    const bool truth = range <= scan.pattern.max_range && range < ball_range<Dim>(p / range, ball_center<Dim>(), kRadius);
+    if (truth) ++seen;
+    else ++hidden;
+    // Nothing behind the ball or out of range is ever called seen, but for the finite width of a ray at its rim.
+    const bool well_inside_shadow = !truth && (range > scan.pattern.max_range || ball_range<Dim>(p / range, ball_center<Dim>(), 0.97 * kRadius) < range);
+    if (well_inside_shadow) {
+      ASSERT_LE(phi[i], 0.0F) << p.transpose();
+    }
+    if (truth && phi[i] <= 0.0F) ++wrongly_hidden;
+  }
+  EXPECT_GT(hidden, 0);
+  EXPECT_LT(wrongly_hidden, 0.01 * seen);  // Beside the rim only.
+}
+
+TYPED_TEST(Visibility, MagnitudeIsTheDistanceLessEta) {
+  constexpr int Dim = TypeParam::value;
+  const std::vector<Patch<Dim>> patches{point_patch<Dim>(ball_center<Dim>())};
+  const Field<Dim> phi = visibility<Dim>(patches, scan_of_ball<Dim>(2.0), window_around_origin<Dim>(5.0, 0.5), 0.3);
+  for (std::size_t i = 0; i < phi.values.size(); ++i)
+    ASSERT_NEAR(std::abs(phi[i]), std::max(0.0, (phi.window.position(i) - ball_center<Dim>()).norm() - 0.3), 1e-5);
+}
+
+TYPED_TEST(Visibility, NoDataShowsNothingAndNoReturnIsFree) {
+  constexpr int Dim = TypeParam::value;
+  Scan<Dim> scan = scan_of_ball<Dim>(2.0);
+  const Grid<Dim> window = window_around_origin<Dim>(5.0, 0.5);
+  std::fill(scan.ranges.begin(), scan.ranges.end(), kNoData);
+  const Field<Dim> dark = visibility<Dim>({}, scan, window, 0.1);
+  std::fill(scan.ranges.begin(), scan.ranges.end(), kNoReturn);
+  const Field<Dim> clear = visibility<Dim>({}, scan, window, 0.1);
+  for (std::size_t i = 0; i < dark.values.size(); ++i) {
+    const double range = window.position(i).norm();
+    EXPECT_EQ(dark[i] > 0.0F, range == 0.0);
+    if (range < 4.9) {
+      EXPECT_GT(clear[i], 0.0F);
+    }
+  }
+}
+
+TYPED_TEST(Visibility, FieldOfViewEndsWhereThePatternEnds) {
+  constexpr int Dim = TypeParam::value;
+  Scan<Dim> scan;
+  scan.pattern.step = radians(1.0);
+  scan.pattern.horizontal_fov = radians(90.0);
+  scan.ranges.assign(directions<Dim>(scan.pattern).size(), kNoReturn);
+  const Field<Dim> phi = visibility<Dim>({}, scan, window_around_origin<Dim>(5.0, 0.5), 0.1);
+  Vec<Dim> ahead = Vec<Dim>::Zero(), behind = ahead, beside = ahead;
+  ahead[0] = 3.0;
+  behind[0] = -3.0;
+  beside[1] = 3.0;
+  const auto at = [&](const Vec<Dim>& p) { return phi.at(phi.window.nearest(p)); };
+  EXPECT_GT(at(ahead), 0.0F);
+  EXPECT_LE(at(behind), 0.0F);
+  EXPECT_LE(at(beside), 0.0F);
+}
+
+/// Oracle: every pixel of the depth image against every patch.
+TYPED_TEST(Visibility, DepthImageEqualsAskingEveryPatch) {
+  constexpr int Dim = TypeParam::value;
+  std::vector<Patch<Dim>> patches = points_of(scan_of_ball<Dim>(6.0));
+  for (std::size_t i = 0; i + 1 < patches.size(); i += 3) patches[i] = segment_patch<Dim>(patches[i].vertices[0], patches[i + 1].vertices[0]);
+  const Vec<Dim> origin = Vec<Dim>::Constant(0.3);
+  DepthImage<Dim> image(64, 50.0F);
+  draw_patches<Dim>(image, patches, origin, 0.05, 0.02);
+  for (std::size_t p = 0; p < image.size(); ++p) {
+    const Vec<Dim> u = image.direction(p);
+    ASSERT_EQ(image.pixel(u), p);
+    double nearest = 50.0;
+    for (const Patch<Dim>& patch : patches) {
+      Vec<Dim> center = Vec<Dim>::Zero();
+      for (const Vec<Dim>& v : patch.corners()) center += (v - origin) / patch.count;
+      const double margin = 0.05 + std::max(0.0, center.dot(u)) * std::tan(0.01);
+      nearest = std::min(nearest, ray_range<Dim>(patch, origin, u, margin).value_or(kInfinity));
+    }
+    ASSERT_NEAR(image[p], nearest, 1e-4);
+  }
+}
+
+/// Sharing a wall out among patches with a gap: plain rays leak through, the 1 degree cone does not.
+TYPED_TEST(Visibility, ConesCloseCracks) {
+  constexpr int Dim = TypeParam::value;
+  std::vector<Patch<Dim>> wall;
+  for (double y = -3.0; y < 3.0; y += 0.05) {
+    Vec<Dim> p = Vec<Dim>::Zero();
+    p[0] = 5.0;
+    p[1] = y;
+    wall.push_back(point_patch<Dim>(p));
+  }
+  Scan<Dim> scan;
+  scan.pattern.max_range = 9.0;
+  scan.ranges.assign(directions<Dim>(scan.pattern).size(), kNoReturn);
+  Grid<Dim> behind = window_around_origin<Dim>(1.0, 0.1);
+  behind.first[0] += 70;
+  for (int a = 2; a < Dim; ++a) {  // Only the plane of the points.
+    behind.first[a] = 0;
+    behind.extent[a] = 1;
+  }
+  const auto leaks = [&](const VisibilityOptions& options) {
+    const Field<Dim> phi = visibility<Dim>(wall, scan, behind, 0.001, options);
+    return std::count_if(phi.values.begin(), phi.values.end(), [](float v) { return v > 0.0F; });
+  };
+  EXPECT_GT(leaks({.range_image = false}), 0);
+  EXPECT_EQ(leaks({.range_image = false, .cone_angle = radians(1.0)}), 0);
+}
+
+TYPED_TEST(Visibility, SameBitsForAnyNumberOfThreads) {
+  constexpr int Dim = TypeParam::value;
+  const Scan<Dim> scan = scan_of_ball<Dim>(1.0);
+  const auto patches = points_of(scan);
+  std::vector<std::vector<float>> results;
+  for (const int threads : {1, 2, 7}) {
+    const ThreadLimit limit(threads);
+    results.push_back(visibility<Dim>(patches, scan, window_around_origin<Dim>(6.0, 0.5), 0.05).values);
+  }
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(results[0], results[2]);
+}
+
+/// Extrusion law: on the scanner's own slice a long cylinder hides what its disc hides in the plane.
+TEST(VisibilityExtrusion, CylinderHidesWhatItsDiscHides) {
+  Scan<3> solid;
+  Scan<2> plane;
+  plane.pattern.max_range = solid.pattern.max_range = 9.0;
+  const Vec<2> center(4.0, 1.0);
+  for (const Vec<2>& d : directions<2>(plane.pattern)) {
+    const double range = ball_range<2>(d, center, 1.0);
+    plane.ranges.push_back(range < 9.0 ? static_cast<float>(range) : kNoReturn);
+  }
+  for (const Vec<3>& d : directions<3>(solid.pattern)) {
+    const Vec<2> flat = d.head<2>();
+    const double range = ball_range<2>(flat.normalized(), center, 1.0) / flat.norm();
+    solid.ranges.push_back(range < 9.0 ? static_cast<float>(range) : kNoReturn);
+  }
+  const Grid<2> window = window_around_origin<2>(6.0, 0.25);
+  const Grid<3> slice{window.spacing, {window.first[0], window.first[1], 0}, {window.extent[0], window.extent[1], 1}};
+  const Field<2> flat = visibility<2>({}, plane, window, 0.0);
+  const Field<3> cut = visibility<3>({}, solid, slice, 0.0);
+  int differ = 0;
+  for (std::size_t i = 0; i < flat.values.size(); ++i) differ += (flat[i] > 0.0F) != (cut[i] > 0.0F);
+  EXPECT_LE(differ, static_cast<int>(flat.values.size() / 200));  // Pixels of the cube map at the rim.
+}
+
+}  // namespace
+}  // namespace vantage
