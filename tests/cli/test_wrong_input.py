@@ -114,7 +114,7 @@ TABLE = [
     (["explore", "no_faces.ply", "-o", "out"], 2, "no_faces.ply"),
     (["explore", "solid.stl", "-o", "out"], 2, "solid.stl"),
     (["explore", "noise.ply", "-o", "out"], 2, "noise.ply"),
-    (["explore", "cube.ply+planar", "-o", "out"], 2, "only 3D scenes"),
+    (["explore", "cube.ply+planar", "-o", "out"], 2, "planar: not a scene file"),
     (["explore", "key.toml", "-o", "out"], 2, "key.toml:4: surface.etta: no such option: did you mean surface.eta?"),
     (["explore", "stage.toml", "-o", "out"], 2, "stage.toml:4: surfaces.eta: no such option"),
     (["explore", "value.toml", "-o", "out"], 2, "value.toml:5: surface.eta = -0.1: must be"),

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "vantage/base/error.h"
-#include "vantage/io/ply.h"
+#include "vantage/io/ply_file.h"
 #include "vantage/io/polygons.h"
 #include "vantage/io/text.h"
 
@@ -161,20 +161,19 @@ Polygons parse_off(std::string_view bytes, const std::string& name) {
 }
 
 Polygons parse_ply(std::string_view bytes, const std::string& name) {
+  const Ply ply = parse_ply_columns(bytes, name, [](std::string_view element, std::string_view) { return element == "vertex" || element == "face"; });
   Polygons polygons;
-  for (const PlyElement& element : parse_ply_elements(bytes, name)) {
-    if (element.name == "vertex" && element.count > 0) {
-      const std::array<const PlyColumn*, 3> xyz{element.find("x"), element.find("y"), element.find("z")};
-      for (const PlyColumn* column : xyz) require(column && !column->list, "PLY header: the vertices lack x, y or z", name);
-      for (std::size_t i = 0; i < element.count; ++i) polygons.vertices.push_back({xyz[0]->values[i], xyz[1]->values[i], xyz[2]->values[i]});
-    }
-    if (element.name == "face" && element.count > 0) {
-      const PlyColumn* column = element.find("vertex_indices");
-      if (!column) column = element.find("vertex_index");
-      require(column && column->list, "PLY header: the faces lack a list 'vertex_indices'", name);
-      for (const double index : column->values) polygons.corners.push_back(index >= -1.0 && index < 1e18 ? static_cast<std::int64_t>(index) : -1);
-      polygons.ends = column->ends;
-    }
+  if (const Ply::Element* vertex = ply.find("vertex"); vertex && vertex->count > 0) {
+    const std::array<const Ply::Property*, 3> xyz{vertex->find("x"), vertex->find("y"), vertex->find("z")};
+    for (const Ply::Property* column : xyz) require(column && !column->count_type, "the vertices lack x, y or z", name);
+    for (std::size_t i = 0; i < vertex->count; ++i) polygons.vertices.push_back({xyz[0]->values[i], xyz[1]->values[i], xyz[2]->values[i]});
+  }
+  if (const Ply::Element* face = ply.find("face"); face && face->count > 0) {
+    const Ply::Property* column = face->find("vertex_indices");
+    if (!column) column = face->find("vertex_index");
+    require(column && column->count_type, "the faces lack a list 'vertex_indices'", name);
+    for (const double index : column->values) polygons.corners.push_back(index >= -1.0 && index < 1e18 ? static_cast<std::int64_t>(index) : -1);
+    polygons.ends.assign(column->row_start.begin() + 1, column->row_start.end());
   }
   return polygons;
 }

@@ -137,7 +137,7 @@ std::string patches_as_ply(std::span<const Patch<Dim>> patches) {
 }
 
 AnyPatches parse_patches(std::string_view bytes, std::string_view where) {
-  const Ply ply = parse_ply(bytes, where, [](std::string_view element, std::string_view) { return element != "point"; });
+  const Ply ply = parse_ply_columns(bytes, where, [](std::string_view element, std::string_view) { return element != "point"; });
   const Ply::Element* vertex = ply.find("vertex");
   require(vertex != nullptr && is_axis(vertex->find("x")) && is_axis(vertex->find("y")), "no vertices with x and y", where);
   const bool plane = std::find(ply.comments.begin(), ply.comments.end(), kPlaneComment) != ply.comments.end();

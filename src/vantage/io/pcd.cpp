@@ -6,6 +6,7 @@
 #include "vantage/base/error.h"
 #include "vantage/io/bytes.h"
 #include "vantage/io/point_cloud_formats.h"
+#include "vantage/io/text.h"
 #include "vantage/io/text_scanner.h"
 
 namespace vantage {
@@ -39,7 +40,7 @@ struct PcdHeader {
 
 std::uint64_t whole_number(std::string_view word, std::string_view key, std::string_view where, std::size_t line) {
   const std::optional<std::uint64_t> value = to_number<std::uint64_t>(word);
-  if (!value) fail(fmt::format("{} {:.40}: must be a whole number", key, word), where, line);
+  if (!value) fail(fmt::format("{} {}: must be a whole number", key, printable(word)), where, line);
   return *value;
 }
 
@@ -64,7 +65,7 @@ void parse_line(std::string_view key, std::string_view rest, PcdHeader& header, 
   } else if (key == "DATA") {
     header.data = take_word(rest);
   } else if (key != "VERSION" && key != "WIDTH" && key != "HEIGHT" && key != "VIEWPOINT") {
-    fail(fmt::format("{:.40}: not a header line of PCD", key), where, line);
+    fail(fmt::format("{}: not a header line of PCD", printable(key)), where, line);
   }
 }
 
@@ -73,7 +74,9 @@ void finish_header(PcdHeader& header, std::string_view where) {
     const bool known = (field.type == 'F' && (field.size == 4 || field.size == 8)) ||
                        ((field.type == 'I' || field.type == 'U') && (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8));
     if (!known || field.count > 65536)
-      fail(fmt::format("field {}: type {}, size {}, count {} is not known", field.name, field.type, field.size, field.count), where, header.lines);
+      fail(fmt::format("field {}: type {}, size {}, count {} is not known", printable(field.name), printable(std::string(1, field.type)), field.size,
+                       field.count),
+           where, header.lines);
     field.column = header.columns;
     field.offset = header.record;
     header.columns += field.count;
@@ -123,7 +126,7 @@ std::vector<Vec<3>> read_ascii(std::string_view bytes, const PcdHeader& header, 
     row.clear();
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
       const std::optional<double> value = to_number<double>(word);
-      if (!value) fail(fmt::format("{:.40}: not a number", word), where, scanner.line());
+      if (!value) fail(fmt::format("{}: not a number", printable(word)), where, scanner.line());
       row.push_back(*value);
     }
     if (row.empty()) continue;
@@ -204,7 +207,7 @@ PointCloud parse_pcd(std::string_view bytes, std::string_view where) {
   } else if (header.data == "binary_compressed") {
     cloud.points = read_compressed(bytes, header, where);
   } else {
-    fail(fmt::format("DATA {:.40}: must be ascii, binary or binary_compressed", header.data), where, header.lines);
+    fail(fmt::format("DATA {}: must be ascii, binary or binary_compressed", printable(header.data)), where, header.lines);
   }
   return cloud;
 }

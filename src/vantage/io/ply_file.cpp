@@ -9,6 +9,7 @@
 
 #include "vantage/base/error.h"
 #include "vantage/io/bytes.h"
+#include "vantage/io/text.h"
 #include "vantage/io/text_scanner.h"
 
 namespace vantage {
@@ -92,7 +93,7 @@ class TextSource final : public Source {
       word = take_word(line_);
     }
     const std::optional<double> value = to_number<double>(word);
-    if (!value) fail(fmt::format("{:.40}: not a number", word));
+    if (!value) fail(fmt::format("{}: not a number", printable(word)));
     return *value;
   }
   std::size_t least(Type) const override { return 1; }
@@ -115,7 +116,7 @@ void parse_property(std::string_view line, Ply& ply, const std::string& place) {
     type_name = take_word(line);
   }
   const std::optional<Type> type = type_of(type_name);
-  require(type.has_value(), fmt::format("property type {:.40}: not known", type_name), place);
+  require(type.has_value(), fmt::format("property type {}: not known", printable(type_name)), place);
   property.type = *type;
   property.name = take_word(line);
   require(!property.name.empty(), "property without a name", place);
@@ -127,8 +128,8 @@ void parse_element(std::string_view line, Ply& ply, const std::string& place) {
   element.name = take_word(line);
   const std::string_view count_text = take_word(line);
   const std::optional<std::uint64_t> count = to_number<std::uint64_t>(count_text);
-  require(!element.name.empty() && count.has_value(), fmt::format("element {}: count {:.40}: must be a whole number", element.name, count_text),
-          place);
+  require(!element.name.empty() && count.has_value(),
+          fmt::format("element {}: count {}: must be a whole number", printable(element.name), printable(count_text)), place);
   element.count = *count;
   ply.elements.push_back(std::move(element));
 }
@@ -141,7 +142,7 @@ bool parse_header_line(std::string_view line, Ply& ply, const std::string& place
   if (key == "format") {
     ply.format = take_word(rest);
     require(ply.format == "ascii" || ply.format == "binary_little_endian" || ply.format == "binary_big_endian",
-            fmt::format("format {:.40}: must be ascii, binary_little_endian or binary_big_endian", ply.format), place);
+            fmt::format("format {}: must be ascii, binary_little_endian or binary_big_endian", printable(ply.format)), place);
   } else if (key == "comment" || key == "obj_info") {
     ply.comments.emplace_back(rest.substr(std::min<std::size_t>(rest.size(), 1)));
   } else if (key == "element") {
@@ -149,7 +150,7 @@ bool parse_header_line(std::string_view line, Ply& ply, const std::string& place
   } else if (key == "property") {
     parse_property(rest, ply, place);
   } else {
-    require(key.empty(), fmt::format("{:.40}: not a header line of PLY", key), place);
+    require(key.empty(), fmt::format("{}: not a header line of PLY", printable(key)), place);
   }
   return true;
 }
@@ -158,7 +159,7 @@ void check_room(const Ply::Element& element, const Source& source) {
   std::size_t least = 0;
   for (const Ply::Property& p : element.properties) least += source.least(p.count_type.value_or(p.type));
   if (least > 0 && element.count > source.remaining() / least)
-    source.fail(fmt::format("{} {} elements exceed the file ({} bytes left)", element.count, element.name, source.remaining()));
+    source.fail(fmt::format("{} {} elements exceed the file ({} bytes left)", element.count, printable(element.name), source.remaining()));
 }
 
 void read_list(Ply::Property& property, Source& source, bool keep) {
@@ -211,8 +212,8 @@ Ply parse_ply_header(std::string_view bytes, std::string_view where, std::size_t
   require(!bytes.empty(), "the file is empty", where);
   TextScanner scanner(bytes.substr(0, kMaxHeaderBytes));
   const std::size_t length = scanner.remaining();
-  const std::optional<std::string_view> first = scanner.next_line();
-  require(first == "ply", "not a PLY file: the first line must be `ply`", where);
+  std::string_view first = scanner.next_line().value_or("");
+  require(take_word(first) == "ply", "not a PLY file: its first line is not 'ply'", where);
   Ply ply;
   while (const std::optional<std::string_view> line = scanner.next_line()) {
     if (parse_header_line(*line, ply, fmt::format("{}:{}", where, scanner.line()))) continue;
@@ -223,7 +224,7 @@ Ply parse_ply_header(std::string_view bytes, std::string_view where, std::size_t
   throw Error(ErrorCode::bad_input, "the file ends within the header", fmt::format("{}:{}", where, scanner.line()));
 }
 
-Ply parse_ply(std::string_view bytes, std::string_view where, const std::function<bool(std::string_view, std::string_view)>& wanted) {
+Ply parse_ply_columns(std::string_view bytes, std::string_view where, const std::function<bool(std::string_view, std::string_view)>& wanted) {
   std::size_t offset = 0;
   Ply ply = parse_ply_header(bytes, where, offset);
   const std::size_t header_lines = static_cast<std::size_t>(std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));

@@ -19,7 +19,7 @@ constexpr double kFloatReach = 4096.0;  // Up to here [m] a float is good to a q
 
 PointCloud parse_ply_points(std::string_view bytes, std::string_view where) {
   const auto wanted = [](std::string_view element, std::string_view p) { return element == "vertex" && (p == "x" || p == "y" || p == "z"); };
-  const Ply ply = parse_ply(bytes, where, wanted);
+  const Ply ply = parse_ply_columns(bytes, where, wanted);
   const Ply::Element* vertex = ply.find("vertex");
   require(vertex != nullptr, "no vertex element", where);
   const Ply::Property *x = vertex->find("x"), *y = vertex->find("y"), *z = vertex->find("z");

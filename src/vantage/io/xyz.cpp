@@ -7,6 +7,7 @@
 
 #include "vantage/base/error.h"
 #include "vantage/io/point_cloud_formats.h"
+#include "vantage/io/text.h"
 #include "vantage/io/text_scanner.h"
 
 namespace vantage {
@@ -45,8 +46,8 @@ Columns named_columns(const std::vector<std::string_view>& words, const std::str
     require(column < 0, fmt::format("columns {} and {} are both called {}", column + 1, i + 1, word), place);
     column = static_cast<int>(i);
   }
-  require(columns.of_axis[0] >= 0 && columns.of_axis[1] >= 0, fmt::format("{:.40}: neither numbers nor column names with x and y", words.front()),
-          place);
+  require(columns.of_axis[0] >= 0 && columns.of_axis[1] >= 0,
+          fmt::format("{}: neither numbers nor column names with x and y", printable(words.front())), place);
   return columns;
 }
 
@@ -66,7 +67,7 @@ Vec<3> point_of(const std::vector<std::string_view>& words, const Columns& colum
     if (column >= words.size())
       throw Error(ErrorCode::bad_input, fmt::format("{} numbers: column {} is missing", words.size(), column + 1), fmt::format("{}:{}", where, line));
     const std::optional<double> value = to_number<double>(words[column]);
-    if (!value) throw Error(ErrorCode::bad_input, fmt::format("{:.40}: not a number", words[column]), fmt::format("{}:{}", where, line));
+    if (!value) throw Error(ErrorCode::bad_input, fmt::format("{}: not a number", printable(words[column])), fmt::format("{}:{}", where, line));
     p[static_cast<Eigen::Index>(a)] = *value;
   }
   return p;

@@ -84,32 +84,6 @@ std::string settled(const std::string& spec) {
   return fmt::format("{}", fmt::join(parts, "+"));
 }
 
-/// Adds the facets of `more` to `scene`.
-void join(Scene<3>& scene, const Scene<3>& more) {
-  const auto vertices = static_cast<std::uint32_t>(scene.mesh.vertices.size()), facets = static_cast<std::uint32_t>(scene.mesh.facets.size());
-  scene.mesh.vertices.insert(scene.mesh.vertices.end(), more.mesh.vertices.begin(), more.mesh.vertices.end());
-  for (Mesh<3>::Facet facet : more.mesh.facets) {
-    for (std::uint32_t& vertex : facet) vertex += vertices;
-    scene.mesh.facets.push_back(facet);
-  }
-  for (Scene<3>::Part part : more.parts) {
-    part.first += facets;
-    scene.parts.push_back(part);
-  }
-  scene.domain.extend(more.domain);
-}
-
-AnyScene load_scene(const Scenario& scenario) {
-  const std::vector<std::string> parts = std::filesystem::exists(scenario.scene) ? std::vector{scenario.scene} : parts_of(scenario.scene, '+');
-  AnyScene scene = make_scene(parts.front(), scenario.file);
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const AnyScene more = make_scene(parts[i], scenario.file);
-    require(std::holds_alternative<Scene<3>>(scene) && std::holds_alternative<Scene<3>>(more), "only 3D scenes can be joined by +", scenario.scene);
-    join(std::get<Scene<3>>(scene), std::get<Scene<3>>(more));
-  }
-  return scene;
-}
-
 /// What the scene wishes, before anybody else says anything.
 template <int Dim>
 void take_defaults(Scenario& scenario, const Scene<Dim>& scene) {
@@ -174,7 +148,7 @@ World make_world(const std::string& spec, std::span<const Setting> settings) {
   Scenario scratch;  // Wrong names and values are found before anything is loaded.
   for (const Setting& setting : all) apply(scratch, setting);
   require(!scratch.scene.empty(), "no scene is named", spec);
-  World world{{}, load_scene(scratch)};
+  World world{{}, make_scene(scratch.scene, scratch.file)};
   std::visit([&](const auto& scene) { take_defaults(world.scenario, scene); }, world.scene);
   world.scenario = with_settings(std::move(world.scenario), all, world.scene);
   return world;
