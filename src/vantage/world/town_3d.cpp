@@ -90,7 +90,10 @@ void add_square(Scenery<3>& scenery, Random& random) {
   const Box<2> yard{Vec<2>(-11.5, 3.0), Vec<2>(11.5, kChurchLength + 3.5)};  // In the church's frame, open towards the square.
   add_yard_wall(scenery, church, yard, 1.3, {{Vec<2>(-11.0, 2.0), Vec<2>(11.0, 6.0)}, {Vec<2>(-1.5, 38.0), Vec<2>(1.5, 42.0)}});
   for (double y = 9.5; y < kChurchLength; y += 8.5)
-    for (const double x : {-9.0, 9.0}) add_tree(scenery, church({x, y + random.uniform(-1.0, 1.0), 0.0}).head<2>(), random.uniform(5.0, 7.0), random);
+    for (const double x : {-9.0, 9.0}) {
+      const Vec<3> foot = church({x, y + random.uniform(-1.0, 1.0), 0.0});
+      add_tree(scenery, foot.head<2>(), random.uniform(5.0, 7.0), random);
+    }
   add_fountain(scenery, {109.0, 89.0});
   for (const double turn : {0.25, 0.75, 1.25, 1.75}) {
     const auto [s, c] = sin_cos(turn * kPi);
