@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Planning quality against the greedy oracle (audit/oracle.h), a row a run:
 //   bench_planning --scenes planar,discs,pipes:cylinders=6 --starts 5 --set planner.metric=boundary
-// n90, n95, n99: scans until that share of the reachable visible volume is seen, `-` if never; oracle: its n99; idle: picks that gained next to nothing.
+// n90, n95, n99: scans until that share of the reachable visible volume is seen, `-` if never; oracle: its n99; idle: picks that gained next to
+// nothing.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,11 +19,11 @@ struct Settings {
   std::vector<std::string> scenes{"planar", "discs", "pipes:cylinders=6"};
   std::vector<std::string> sets;
   std::int64_t starts = 5, seed = 2026, candidates = 1000, targets = 20000;
-  double voxel = 0.0;         ///< 0: the scene's.
-  double cap = 3.0;           ///< Scans of a run at most, in those of its oracle.
-  bool to_the_end = false;    ///< Run on after 99 %, to judge the verdict.
-  bool scene_start = false;   ///< The first start is the scene's own.
-  bool curves = false;        ///< Places and shares after each scan.
+  double voxel = 0.0;        ///< 0: the scene's.
+  double cap = 3.0;          ///< Scans of a run at most, in those of its oracle.
+  bool to_the_end = false;   ///< Run on after 99 %, to judge the verdict.
+  bool scene_start = false;  ///< The first start is the scene's own.
+  bool curves = false;       ///< Places and shares after each scan.
 };
 
 /// `stage.name=value` into the options of a trial.
@@ -73,9 +74,12 @@ void row(const Trial<Dim>& trial, const Vec<Dim>& start, const TrialOptions& opt
   const auto n99 = run.scans_to(0.99);
   const double ratio = static_cast<double>(n99.value_or(cap)) / static_cast<double>(best);
   const std::int64_t idle = idle_picks(run.coverage);
-  fmt::print("{:>24} {:>4} {:>4} {:>4} {:>7} {:>5} {:>6.2f} {:>5} {:>8.4f} {:>10.4g} {:>8} {:>8.2f}\n", sum.runs, scans(run.scans_to(0.9)), scans(run.scans_to(0.95)),
-             scans(n99), best, scans(walking.scans_to(0.99)), ratio, idle, run.coverage.back(), run.falsely_free,
+  fmt::print("{:>24} {:>4} {:>4} {:>4} {:>7} {:>5} {:>6.2f} {:>5} {:>8.4f} {:>10.4g} {:>8} {:>8.2f}\n", sum.runs, scans(run.scans_to(0.9)),
+             scans(run.scans_to(0.95)), scans(n99), best, scans(walking.scans_to(0.99)), ratio, idle, run.coverage.back(), run.falsely_free,
              run.finished ? (run.verdict_right ? "right" : "wrong") : "-", seconds);
+  if (run.finished)
+    fmt::print("{:>24} {} after {} scans: {} Seen {:.5f} .. {:.5f}, truly {:.5f}.\n", "", run.verdict.complete ? "complete" : "not complete",
+               run.places.size(), run.verdict.reason, run.verdict.seen_low, run.verdict.seen_high, run.coverage.back());
   if (settings.curves) curves(run, sight, anywhere);
   std::fflush(stdout);
   sum.runs += 1;
@@ -94,14 +98,15 @@ void table(const std::string& name, const Scene<Dim>& scene, const Settings& set
   if (settings.voxel > 0.0) options.explore.voxel = settings.voxel;
   for (const std::string& set : settings.sets) apply(options, set);
   const Trial<Dim> trial(scene, options);
-  fmt::print("{:<24} {:>4} {:>4} {:>4} {:>7} {:>5} {:>6} {:>5} {:>8} {:>10} {:>8} {:>8}\n", name, "n90", "n95", "n99", "oracle", "(seen)", "ratio", "idle", "share",
-             "false free", "verdict", "seconds");
+  fmt::print("{:<24} {:>4} {:>4} {:>4} {:>7} {:>5} {:>6} {:>5} {:>8} {:>10} {:>8} {:>8}\n", name, "n90", "n95", "n99", "oracle", "(seen)", "ratio",
+             "idle", "share", "false free", "verdict", "seconds");
   std::vector<Vec<Dim>> starts = trial.starts(settings.starts, settings.seed);
   if (settings.scene_start && !starts.empty()) starts[0] = scene.start;
   Sum sum;
   for (const Vec<Dim>& start : starts) row(trial, start, options, settings, sum);
-  fmt::print("{:>24} {:>14} {:>7} {:>5} {:>6.2f} {:>5}   worst {:.2f}, missed {} of {}, idle {} of {} picks\n\n", "sum", sum.ours, sum.oracle, sum.seen,
-             static_cast<double>(sum.ours) / static_cast<double>(sum.oracle), sum.idle, sum.worst, sum.missed, sum.runs, sum.idle, sum.picks);
+  fmt::print("{:>24} {:>14} {:>7} {:>5} {:>6.2f} {:>5}   worst {:.2f}, missed {} of {}, idle {} of {} picks\n\n", "sum", sum.ours, sum.oracle,
+             sum.seen, static_cast<double>(sum.ours) / static_cast<double>(sum.oracle), sum.idle, sum.worst, sum.missed, sum.runs, sum.idle,
+             sum.picks);
 }
 
 }  // namespace
