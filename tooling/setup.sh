@@ -65,21 +65,22 @@ install_packages() {
   fi
 }
 
-# need_packages LIST (a file in tooling/): installs what is missing. Costs nothing while neither the list nor dpkg's state changed.
+# need_packages LISTS (files in tooling/): installs what is missing. Costs nothing while neither lists nor dpkg's state changed.
 need_packages() {
-  stamp=$stamps/$1
-  list=$root/tooling/$1
   if ! command -v dpkg-query >/dev/null 2>&1 || ! command -v apt-get >/dev/null 2>&1; then
     # Not Debian: the tools must be there, and CMake names each library it misses.
     for tool in cmake ninja c++; do
-      command -v $tool >/dev/null 2>&1 || die "this is not Debian and $tool is missing; needs what Debian calls: $(sed '/^#/d' "$list" | tr '\n' ' ')"
+      command -v $tool >/dev/null 2>&1 || die "this is not Debian and $tool is missing; needs what Debian calls: $(cd "$root/tooling" && sed '/^#/d' "$@" | tr '\n' ' ')"
     done
     return 0
   fi
-  [ "$stamp" -nt "$list" ] && [ "$stamp" -nt /var/lib/dpkg/status ] && return 0
-  missing=$(missing_packages "$list")
+  missing=
+  for list in "$@"; do
+    [ "$stamps/$list" -nt "$root/tooling/$list" ] && [ "$stamps/$list" -nt /var/lib/dpkg/status ] && continue
+    missing="$missing$(missing_packages "$root/tooling/$list")"
+  done
   [ -z "$missing" ] || install_packages $missing
-  touch "$stamp"
+  for list in "$@"; do touch "$stamps/$list"; done
 }
 
 # build_preset PRESET: configures if there is no build or the presets changed, and builds.

@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 14;
 
+/// How surely an explorer that looks there calls the node seen.
+int clarity(const Truth& truth) {
+  if (!truth.inside || !truth.visible) return 0;
+  return truth.blurred ? 1 : truth.near ? 2 : 3;
+}
+
 /// The node of a run's lattice that decides whether node `i` of the reference is seen: global index at the spacing h.
 template <int Dim>
 Index<Dim> deciding_node(const Reference<Dim>& reference, const Index<Dim>& i) {
@@ -18,13 +24,13 @@ Index<Dim> deciding_node(const Reference<Dim>& reference, const Index<Dim>& i) {
   const Index<Dim> odd = (grid.first + i).unaryExpr([](std::int32_t v) { return v & 1; });
   const Grid<Dim> choices{1.0, Index<Dim>(i - odd), Index<Dim>(odd.array() + 1)};  // One or two along each axis.
   Index<Dim> chosen = choices.first;
-  for (std::size_t k = 0; k < choices.size(); ++k) {
+  int best = -1;
+  for (std::size_t k = 0; k < choices.size() && best < 3; ++k) {
     const Index<Dim> node = choices.first + 2 * choices.local(k);
-    if (!grid.inside(node)) continue;
-    const Truth& truth = reference.nodes.at(node);
-    if (!truth.inside || !truth.visible || truth.blurred) continue;
+    const int now = grid.inside(node) ? clarity(reference.nodes.at(node)) : -1;
+    if (now <= best) continue;
+    best = now;
     chosen = node;
-    break;
   }
   return (grid.first + chosen).unaryExpr([](std::int32_t v) { return v / 2; });
 }
@@ -50,17 +56,24 @@ Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& 
   require(coarse.spacing == reference.options.voxel,
           fmt::format("audit: explored lattice of {} m: must be the reference's {} m", coarse.spacing, reference.options.voxel));
   const auto sum = [](std::size_t& total, std::size_t part) { total += part; };
-  const std::size_t seen = parallel_reduce<std::size_t>(fine.size(), kChunk, 0, [&](std::size_t begin, std::size_t end) {
-    std::size_t n = 0;
-    for (std::size_t i = begin; i < end; ++i)
-      if (reference.nodes[i].counts() && called_seen(explored, deciding_node(reference, fine.local(i)))) ++n;
-    return n;
-  }, sum);
-  const std::size_t wrong = parallel_reduce<std::size_t>(coarse.size(), kChunk, 0, [&](std::size_t begin, std::size_t end) {
-    std::size_t n = 0;
-    for (std::size_t i = begin; i < end; ++i) n += explored[i] == NodeState::seen && hidden<Dim>(reference, coarse.local(i) + coarse.first) ? 1 : 0;
-    return n;
-  }, sum);
+  const std::size_t seen = parallel_reduce<std::size_t>(
+      fine.size(), kChunk, 0,
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t n = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          if (reference.nodes[i].counts() && called_seen(explored, deciding_node(reference, fine.local(i)))) ++n;
+        return n;
+      },
+      sum);
+  const std::size_t wrong = parallel_reduce<std::size_t>(
+      coarse.size(), kChunk, 0,
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t n = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          n += explored[i] == NodeState::seen && hidden<Dim>(reference, coarse.local(i) + coarse.first) ? 1 : 0;
+        return n;
+      },
+      sum);
   return {static_cast<double>(seen) / static_cast<double>(reference.counted), static_cast<double>(wrong) * reference.node_volume() * (1 << Dim)};
 }
 

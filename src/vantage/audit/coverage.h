@@ -11,7 +11,7 @@ struct Coverage {
 };
 
 /// `explored` has the spacing h. A reference node counts as seen when the nearest node of the run's lattice is called seen; of several equally
-/// near the first that is neither blurred nor hidden decides, since no visibility calls a node beside a surface seen. Throws bad_input for
+/// near the first that is farther than h from surfaces decides, since beside a surface no visibility calls a node seen. Throws bad_input for
 /// another spacing.
 template <int Dim>
 [[nodiscard]] Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& explored);

@@ -19,7 +19,6 @@ class CoverageOf : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(CoverageOf, Dimensions);
 
-
 template <int Dim>
 struct Explored {
   Explored() : truth(two_rooms<Dim>(4.0)) {
@@ -51,6 +50,13 @@ TYPED_TEST(CoverageOf, PerfectMapCoversAllAndAnEmptyOneNothing) {
   e.see([](const Vec<Dim>&) { return true; });
   EXPECT_EQ(coverage(e.reference, e.map).fraction, 1.0);
   EXPECT_EQ(coverage(e.reference, e.map).falsely_free, 0.0);
+}
+
+TYPED_TEST(CoverageOf, ExplorerThatKeepsOffSurfacesCoversAllTheSame) {
+  constexpr int Dim = TypeParam::value;
+  Explored<Dim> e;
+  e.see([&](const Vec<Dim>& p) { return e.truth.distance(p) > 0.5; });
+  EXPECT_EQ(coverage(e.reference, e.map).fraction, 1.0);
 }
 
 TYPED_TEST(CoverageOf, PartOfTheMapCoversItsShare) {

@@ -38,7 +38,8 @@ class TableBuilder {
 
   SightTable<Dim> build(const Vec<Dim>& start) {
     const Grid<Dim>& grid = reference_.nodes.window;
-    for (const std::size_t i : draw(nodes_where(reference_, [](const Truth& t) { return t.counts(); }), static_cast<std::size_t>(options_.targets), random_))
+    for (const std::size_t i :
+         draw(nodes_where(reference_, [](const Truth& t) { return t.counts(); }), static_cast<std::size_t>(options_.targets), random_))
       targets_.push_back(grid.position(i));
     table_.targets = targets_.size();
     table_.candidates.push_back(start);
@@ -51,9 +52,7 @@ class TableBuilder {
   }
 
  private:
-  bool sees(const Vec<Dim>& from, const Vec<Dim>& to) const {
-    return (to - from).norm() <= reference_.options.range && in_sight(truth_, from, to);
-  }
+  bool sees(const Vec<Dim>& from, const Vec<Dim>& to) const { return (to - from).norm() <= reference_.options.range && in_sight(truth_, from, to); }
 
   void look_at_targets(std::size_t first) {
     table_.rows.resize(table_.candidates.size(), std::vector<std::uint64_t>((targets_.size() + 63) / 64));

@@ -13,9 +13,9 @@ namespace vantage {
 [[nodiscard]] std::optional<std::int64_t> scans_to(std::span<const double> coverage, double share);
 
 struct OracleOptions {
-  std::int64_t targets = 20000;     ///< Nodes of the reference set that are looked at; fewer if it is smaller.
-  std::int64_t candidates = 1000;   ///< Reachable nodes a scan may be taken from; some are added where they see too little.
-  std::int64_t seed = 1;            ///< Of the choice of both.
+  std::int64_t targets = 20000;    ///< Nodes of the reference set that are looked at; fewer if it is smaller.
+  std::int64_t candidates = 1000;  ///< Reachable nodes a scan may be taken from; some are added where they see too little.
+  std::int64_t seed = 1;           ///< Of the choice of both.
 };
 
 void describe(OracleOptions& options, const OptionVisitor& visit);

@@ -188,7 +188,8 @@ TYPED_TEST(OracleOf, PlacesSeenBeforeAreInSightOfOneAnother) {
   const OracleRun run = greedy_oracle(table, {.from_seen = true});
   EXPECT_GT(run.places.size(), 3U);
   for (std::size_t k = 1; k < run.places.size(); ++k)
-    EXPECT_TRUE(std::any_of(run.places.begin(), run.places.begin() + static_cast<std::ptrdiff_t>(k), [&](std::size_t p) { return table.sees_place(p, run.places[k]); }));
+    EXPECT_TRUE(std::any_of(run.places.begin(), run.places.begin() + static_cast<std::ptrdiff_t>(k),
+                            [&](std::size_t p) { return table.sees_place(p, run.places[k]); }));
   EXPECT_TRUE(std::is_sorted(run.coverage.begin(), run.coverage.end()));
 }
 

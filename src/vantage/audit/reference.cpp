@@ -14,8 +14,8 @@ namespace vantage {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
-constexpr std::int32_t kBlock = 8;           // Nodes along an edge of the blocks that are tested at once.
-constexpr double kTouch = 1e-6;              // Nearer than this is on the surface [m].
+constexpr std::int32_t kBlock = 8;  // Nodes along an edge of the blocks that are tested at once.
+constexpr double kTouch = 1e-6;     // Nearer than this is on the surface [m].
 
 /// Calls `visit(neighbour)` for the face neighbours of a node that lie in the window.
 template <int Dim, class Visit>
@@ -101,9 +101,7 @@ class Builder {
   bool stands(const Truth& truth) const { return truth.inside && !truth.tight && !truth.touching; }
 
   /// No surface crosses the step between two nodes.
-  bool open(std::size_t a, std::size_t b) {
-    return !(node(a).close && node(b).close) || in_sight(caster_, grid().position(a), grid().position(b));
-  }
+  bool open(std::size_t a, std::size_t b) { return !(node(a).close && node(b).close) || in_sight(caster_, grid().position(a), grid().position(b)); }
 
   /// Nearest node within two steps and the clearance of `start` where one can stand and that is in sight of it.
   std::size_t first_node(const Vec<Dim>& start) {
@@ -191,8 +189,10 @@ class Builder {
       const std::uint32_t w = witness_[other];
       if (found != kNone || w == kNone || w == failed) return;
       const Vec<Dim> from = grid().position(w);
-      if ((place - from).norm() <= reference_.options.range && in_sight(caster_, from, place)) found = w;
-      else failed = w;
+      if ((place - from).norm() <= reference_.options.range && in_sight(caster_, from, place))
+        found = w;
+      else
+        failed = w;
     });
     if (found != kNone) return found;
     const auto view = find_view<Dim>(reference_, caster_, place, directions_);

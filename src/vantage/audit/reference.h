@@ -38,10 +38,10 @@ template <int Dim>
   requires SpatialDim<Dim>
 struct Reference {
   ReferenceOptions options;
-  Field<Dim, Truth> nodes;   ///< Over the domain, at spacing h/2: every second node is one of the runs' lattice.
-  std::size_t counted = 0;   ///< Nodes of the reference set.
+  Field<Dim, Truth> nodes;  ///< Over the domain, at spacing h/2: every second node is one of the runs' lattice.
+  std::size_t counted = 0;  ///< Nodes of the reference set.
 
-  [[nodiscard]] double node_volume() const;                                        ///< [m^Dim]
+  [[nodiscard]] double node_volume() const;                                                     ///< [m^Dim]
   [[nodiscard]] double volume() const { return static_cast<double>(counted) * node_volume(); }  ///< [m^Dim]
 };
 
@@ -51,7 +51,8 @@ struct Reference {
 /// sight near `start`, memory if the lattice does not fit. Cost: one distance for a node near surfaces, a few rays for one that cannot be reached,
 /// all rays for one that is joined but hidden. Same bits for any number of threads.
 template <int Dim>
-[[nodiscard]] Reference<Dim> make_reference(const RayCaster<Dim>& truth, const Box<Dim>& domain, const Vec<Dim>& start, const ReferenceOptions& options);
+[[nodiscard]] Reference<Dim> make_reference(const RayCaster<Dim>& truth, const Box<Dim>& domain, const Vec<Dim>& start,
+                                            const ReferenceOptions& options);
 
 /// The fixed directions: a uniform circle, or a Fibonacci sphere.
 template <int Dim>

@@ -71,7 +71,8 @@ struct SlowReference {
   /// Any reachable node in line of sight.
   bool witnessed(std::size_t i) const {
     for (std::size_t j = 0; j < grid.size(); ++j)
-      if (reachable[j] && (grid.position(i) - grid.position(j)).norm() <= options.range && in_sight(truth, grid.position(j), grid.position(i))) return true;
+      if (reachable[j] && (grid.position(i) - grid.position(j)).norm() <= options.range && in_sight(truth, grid.position(j), grid.position(i)))
+        return true;
     return false;
   }
 
@@ -166,8 +167,8 @@ TYPED_TEST(ReferenceOf, StartWithoutRoomIsRefused) {
   Mesh<Dim> mesh;
   add_box(mesh, cube<Dim>(3.6, 4.4));
   const RayCaster<Dim> truth(mesh);
-  EXPECT_THROW((void)make_reference(truth, cube<Dim>(0.0, 8.0), place<Dim>(4.0, 4.0), coarse()), Error);   // In the box.
-  EXPECT_THROW((void)make_reference(truth, cube<Dim>(0.0, 8.0), place<Dim>(9.0, 4.0), coarse()), Error);   // Outside.
+  EXPECT_THROW((void)make_reference(truth, cube<Dim>(0.0, 8.0), place<Dim>(4.0, 4.0), coarse()), Error);  // In the box.
+  EXPECT_THROW((void)make_reference(truth, cube<Dim>(0.0, 8.0), place<Dim>(9.0, 4.0), coarse()), Error);  // Outside.
   ReferenceOptions wrong = coarse();
   wrong.voxel = -1.0;
   EXPECT_THROW((void)make_reference(truth, cube<Dim>(0.0, 8.0), place<Dim>(2.0, 4.0), wrong), Error);

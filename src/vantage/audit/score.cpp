@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/audit/score.h"
 
+#include "vantage/audit/coverage.h"
+
 namespace vantage {
 namespace {
 
@@ -24,7 +26,8 @@ template <int Dim>
 RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits) {
   RunScore<Dim> score;
   const auto enough = [&] {
-    return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans || (!score.coverage.empty() && score.coverage.back() >= limits.coverage);
+    return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans ||
+           (!score.coverage.empty() && score.coverage.back() >= limits.coverage);
   };
   while (!explorer.finished() && !enough()) {
     const StepRecord<Dim>& step = explorer.step();
@@ -35,7 +38,8 @@ RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference
     score.falsely_free = now.falsely_free;
   }
   score.finished = explorer.finished();
-  if (score.finished && !score.coverage.empty()) score.verdict_right = verdict_right(explorer.verdict(), score.coverage.back());
+  if (score.finished) score.verdict = explorer.verdict();
+  score.verdict_right = score.finished && !score.coverage.empty() && verdict_right(score.verdict, score.coverage.back());
   return score;
 }
 

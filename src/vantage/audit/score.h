@@ -11,12 +11,13 @@ namespace vantage {
 template <int Dim>
   requires SpatialDim<Dim>
 struct RunScore {
-  std::vector<Vec<Dim>> places;      ///< Of the scans, in their order [m].
-  std::vector<double> coverage;      ///< Share of the reference set seen after each [1].
-  double falsely_free = 0.0;         ///< At the end, see Coverage [m^Dim].
-  double path_length = 0.0;          ///< [m]
-  bool finished = false;             ///< The explorer ended by itself; only then is there a verdict to judge.
-  bool verdict_right = false;        ///< See verdict_right().
+  std::vector<Vec<Dim>> places;  ///< Of the scans, in their order [m].
+  std::vector<double> coverage;  ///< Share of the reference set seen after each [1].
+  double falsely_free = 0.0;     ///< At the end, see Coverage [m^Dim].
+  double path_length = 0.0;      ///< [m]
+  bool finished = false;         ///< The explorer ended by itself; only then is there a verdict to judge.
+  Verdict<Dim> verdict;          ///< What it said at its end.
+  bool verdict_right = false;    ///< See verdict_right().
 
   [[nodiscard]] std::optional<std::int64_t> scans_to(double share) const { return vantage::scans_to(coverage, share); }
 };

@@ -7,7 +7,43 @@
 #include <algorithm>
 #include <optional>
 
+#ifdef __SANITIZE_THREAD__
+#include <atomic>
+#include <thread>
+#endif
+
 namespace vantage {
+namespace {
+
+#ifdef __SANITIZE_THREAD__
+// The thread sanitizer does not see oneTBB's own synchronisation, as the library is not built with it; threads it does understand stand in.
+template <class Body>
+void for_each_chunk(std::size_t chunks, const Body& body) {
+  thread_local bool inside = false;
+  if (inside) {
+    for (std::size_t c = 0; c < chunks; ++c) body(c);
+    return;
+  }
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    inside = true;
+    for (std::size_t c = next++; c < chunks; c = next++) body(c);
+    inside = false;
+  };
+  std::vector<std::thread> others;
+  const std::size_t threads = std::min(chunks, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+}
+#else
+template <class Body>
+void for_each_chunk(std::size_t chunks, const Body& body) {
+  tbb::parallel_for(std::size_t{0}, chunks, body);
+}
+#endif
+
+}  // namespace
 
 struct ThreadLimit::Control {
   std::optional<tbb::global_control> limit;
@@ -23,7 +59,7 @@ void parallel_chunks(std::size_t count, std::size_t chunk, const std::function<v
   if (count == 0) return;
   const std::size_t chunks = (count + chunk - 1) / chunk;
   if (chunks == 1) return body(0, count);
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) { body(c * chunk, std::min(count, (c + 1) * chunk)); });
+  for_each_chunk(chunks, [&](std::size_t c) { body(c * chunk, std::min(count, (c + 1) * chunk)); });
 }
 
 }  // namespace vantage

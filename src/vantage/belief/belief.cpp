@@ -42,21 +42,53 @@ Belief<Dim>::Belief(const Grid<Dim>& window, double eta)
   seen_ = Field<Dim, std::uint8_t>(window, 0);
   state_ = Field<Dim, NodeState>(window, NodeState::unseen);
   psi_ = Field<Dim>(window, static_cast<float>(-cap_));
-  known_distance_ = Field<Dim>(window, static_cast<float>(cap_));
+  known_distance_ = wall_distance_ = Field<Dim>(window, static_cast<float>(cap_));
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
-void Belief<Dim>::unite(const Field<Dim>& phi) {
-  const Grid<Dim> common = intersection(phi.window, state_.window);
+Grid<Dim> Belief<Dim>::add_walls(std::span<const Vec<Dim>> walls) {
+  const Grid<Dim>& window = state_.window;
+  const double reach = std::sqrt(static_cast<double>(Dim)) * window.spacing;
+  constexpr int kNodes = 5;  // sqrt(3) cells each way, from the nearest node.
+  int neighbours = 1;
+  for (int a = 0; a < Dim; ++a) neighbours *= kNodes;
+  Box<Dim> touched;
+  for (const Vec<Dim>& wall : walls) {
+    const Index<Dim> center = window.nearest(wall);
+    // A node this near has heard of this wall already: samples lie dense.
+    if (window.inside(center) && static_cast<double>(wall_distance_.at(center)) < 0.1 * window.spacing) continue;
+    for (int code = 0; code < neighbours; ++code) {
+      Index<Dim> node = center;
+      for (int a = 0, rest = code; a < Dim; ++a, rest /= kNodes) node[a] += rest % kNodes - kNodes / 2;
+      if (!window.inside(node)) continue;
+      const auto distance = static_cast<float>((window.position(node) - wall).norm());
+      if (distance > static_cast<float>(reach) || distance >= wall_distance_.at(node)) continue;
+      wall_distance_.at(node) = distance;
+      touched.extend(window.position(node));
+    }
+  }
+  return touched.empty() ? Grid<Dim>{window.spacing, window.first, Index<Dim>::Zero()} : intersection(window_over(touched, window.spacing), window);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+void Belief<Dim>::unite(const Field<Dim>& phi, std::span<const Vec<Dim>> walls) {
   const auto limit = static_cast<float>(cap_), tolerance = static_cast<float>(eta_), obstacle = static_cast<float>(obstacle_distance_);
+  const auto judge = [&](std::size_t i) {
+    known_distance_[i] = std::min(known_distance_[i], wall_distance_[i]);
+    state_[i] = known_distance_[i] <= obstacle ? NodeState::obstacle : seen_[i] != 0 ? NodeState::seen : NodeState::unseen;
+  };
+  const Grid<Dim> walled = add_walls(walls), common = intersection(phi.window, state_.window);
+  for_common(walled, walled, state_.window, [&](std::size_t, std::size_t i) { judge(i); });
   for_common(common, phi.window, state_.window, [&](std::size_t from, std::size_t to) {
     const float value = phi[from];
     if (value > 0.0F) seen_[to] = 1;
     known_distance_[to] = std::min(std::abs(value) + tolerance, limit);
-    state_[to] = known_distance_[to] <= obstacle ? NodeState::obstacle : seen_[to] != 0 ? NodeState::seen : NodeState::unseen;
+    judge(to);
   });
   redistance_around(common);
+  if (walled.size() > 0 && !(intersection(walled, common) == walled)) redistance_around(walled);
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "vantage/field/belief_view.h"
 
@@ -16,7 +17,8 @@ class Belief {
 
   /// Adds what one scan saw: `phi` as visibility.h gives it, on any window of the same lattice. |phi| also renews the distance to the known surface
   /// there. Nodes changed lie in phi's window; psi is renewed in that window grown by its cap, the rest stays as it was.
-  void unite(const Field<Dim>& phi);
+  /// `walls`: points on surfaces known between the scan's rays, at most h/2 apart (scan/fill.h); they count for the known distance too, for good.
+  void unite(const Field<Dim>& phi, std::span<const Vec<Dim>> walls = {});
 
   [[nodiscard]] BeliefView<Dim> view() const { return {state_, psi_, known_distance_}; }
   /// Nodes ever seen, obstacles among them or not (0 or 1).
@@ -28,12 +30,13 @@ class Belief {
   [[nodiscard]] double cap() const { return cap_; }
 
  private:
+  Grid<Dim> add_walls(std::span<const Vec<Dim>> walls);
   void redistance_around(const Grid<Dim>& changed);
 
   double eta_, obstacle_distance_, cap_;
   Field<Dim, std::uint8_t> seen_;
   Field<Dim, NodeState> state_;
-  Field<Dim> psi_, known_distance_;
+  Field<Dim> psi_, known_distance_, wall_distance_;
 };
 
 }  // namespace vantage

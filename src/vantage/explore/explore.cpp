@@ -9,6 +9,7 @@
 #include "vantage/base/error.h"
 #include "vantage/belief/belief.h"
 #include "vantage/planner/planner.h"
+#include "vantage/scan/fill.h"
 
 namespace vantage {
 namespace {
@@ -49,6 +50,7 @@ void describe(ExploreOptions& o, const OptionVisitor& visit) {
   visit("voxel", o.voxel, "m", Range{1e-4, 1e3}, "lattice spacing h; doors should be three of them wide");
   visit("max_scans", o.max_scans, "scans", Range{1, 1e6}, "stop after so many, complete or not");
   visit("seed", o.seed, "", Range{0, 9e15}, "of everything random in the planner");
+  visit("fill", o.fill, "know flat walls between the rays of a scan (for the belief, never for the surface)");
   visit("snapshots", o.snapshots, "keep cuts through belief and metric for the report");
 }
 
@@ -117,7 +119,9 @@ struct Explorer<Dim>::Impl {
       const std::vector<Patch<Dim>> patches = surface.patches(near.bounds().grown(2.0 * near.spacing + eta));
       return visibility<Dim>(patches, scan, near, eta, options.visibility);
     });
-    timed("belief", [&] { belief.unite(phi); });  // psi <- max(psi, phi), redistance
+    timed("belief", [&] {  // psi <- max(psi, phi), redistance
+      belief.unite(phi, options.fill ? fill_between_rays(scan, 0.5 * window.spacing) : std::vector<Vec<Dim>>{});
+    });
     if (!planner) planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
     record.seen_volume = belief.seen_volume();
     record.new_volume = std::max(0.0, record.seen_volume - seen_before);
@@ -161,7 +165,7 @@ struct Explorer<Dim>::Impl {
 template <int Dim>
   requires SpatialDim<Dim>
 Snapshot<Dim> Explorer<Dim>::Impl::snapshot() const {
-  constexpr std::size_t kPlaces = 6000;
+  constexpr std::size_t kPlaces = 4000;
   const BeliefView<Dim> view = belief.view();
   Snapshot<Dim> cut;
   cut.step = static_cast<int>(steps.size()) - 1;
@@ -169,7 +173,7 @@ Snapshot<Dim> Explorer<Dim>::Impl::snapshot() const {
   cut.next = decision.position;
   cut.has_next = decision.found;
   const Index<Dim> level = window.nearest(visited.back()).cwiseMax(0).cwiseMin((window.extent.array() - 1).matrix());
-  cut.height = Dim > 2 ? window.position(level)[Dim - 1] : 0.0;
+  cut.height = (Dim - 2) * window.position(level)[Dim - 1];
   Grid<2> plane{window.spacing, window.first.template head<2>(), window.extent.template head<2>()};
   cut.state = Field<2, NodeState>(plane);
   for (std::size_t i = 0; i < plane.size(); ++i) {

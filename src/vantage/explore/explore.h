@@ -17,13 +17,14 @@ struct ExploreOptions {
   double voxel = 0.5;            ///< Lattice spacing h [m].
   std::int64_t max_scans = 500;  ///< Stop after so many, complete or not.
   std::int64_t seed = 1;         ///< Of everything random in the planner.
+  bool fill = true;              ///< Know flat walls between the rays of a scan (scan/fill.h).
   bool snapshots = true;         ///< Keep cuts through belief and metric for the report.
   SurfaceOptions surface;
   VisibilityOptions visibility;
   PlannerOptions planner;
 };
 
-/// The top-level ones (voxel, max_scans, seed, snapshots); each stage describes its own.
+/// The top-level ones (voxel, max_scans, seed, fill, snapshots); each stage describes its own.
 void describe(ExploreOptions& options, const OptionVisitor& visit);
 
 /// The loop of the paper's Fig. 1. It knows the place only through `sensor`. A function of (scans, options): a sensor that plays back logged

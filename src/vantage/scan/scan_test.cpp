@@ -123,8 +123,7 @@ TYPED_TEST(ScanOf, NeighbouringColumnsAreOneStepApartAroundTheCircle) {
   const std::size_t level = rows / 2;  // The row nearest the horizon, 0.25 degrees above it in 3D.
   const double cosine = std::sqrt(all[level].template head<2>().squaredNorm());
   const double expected = 2.0 * std::asin(cosine * std::sin(0.5 * p.step));
-  for (std::size_t c = 0; c < columns; ++c)
-    EXPECT_NEAR(angle<Dim>(all[c * rows + level], all[(c + 1) % columns * rows + level]), expected, 1e-12);
+  for (std::size_t c = 0; c < columns; ++c) EXPECT_NEAR(angle<Dim>(all[c * rows + level], all[(c + 1) % columns * rows + level]), expected, 1e-12);
   EXPECT_NEAR(expected, p.step, 1e-6);
 }
 

@@ -13,7 +13,7 @@ template <int Dim>
 std::array<double, 2> image_place(const ScanPattern& pattern, const Vec<Dim>& d) {
   const double azimuth = angle_of(d[1], d[0]);
   const double column = pattern.full_circle() ? (azimuth + kPi) / (2.0 * kPi) * pattern.columns() : azimuth / pattern.step + 0.5 * (pattern.columns() - 1);
-  const double height = Dim > 2 ? d[Dim - 1] : 0.0;
+  const double height = (Dim - 2) * d[Dim - 1];
   const double elevation = angle_of(height, d.template head<2>().norm());
   return {column, elevation / pattern.step + 0.5 * (pattern.rows<Dim>() - 1)};
 }
@@ -174,7 +174,7 @@ void draw_patches(DepthImage<Dim>& image, std::span<const Patch<Dim>> patches, c
       if (area.empty()) continue;
       const auto row_length = static_cast<std::size_t>(image.pixels_per_face()) / static_cast<std::size_t>(rows);
       // Axis 0 of the face is its rows; the other, where there is one, runs along a row.
-      const int from = Dim > 2 ? area.low[Dim - 2] : 0, to = Dim > 2 ? area.high[Dim - 2] : 1;
+      const int from = (Dim - 2) * area.low[Dim - 2], to = 1 + (Dim - 2) * (area.high[Dim - 2] - 1);
       for (int row = area.low[0]; row < area.high[0]; ++row)
         for (int column = from; column < to; ++column) {
           const std::size_t p = static_cast<std::size_t>(face) * image.pixels_per_face() + static_cast<std::size_t>(row) * row_length + static_cast<std::size_t>(column);

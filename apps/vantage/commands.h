@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What follows the command's name.
+using Arguments = std::vector<std::string>;
+
+/// Each runs one command and returns the exit code; bad input is thrown as vantage::Error.
+int config_command(const Arguments& arguments);
+int explore_command(const Arguments& arguments);
+int info_command(const Arguments& arguments);
+int reconstruct_command(const Arguments& arguments);
+int scan_command(const Arguments& arguments);
+int scene_command(const Arguments& arguments);
+int visibility_command(const Arguments& arguments);
+
+struct Command {
+  std::string_view name, usage, summary;
+  int (*run)(const Arguments&);
+};
+
+/// In the order of `vantage --help`.
+inline constexpr Command kCommands[] = {
+    {"explore", "SCENE", "scan, rebuild, find the next vantage point, go there, until done", explore_command},
+    {"scan", "SCENE --at x,y,z -o FILE", "one simulated scan to a file", scan_command},
+    {"reconstruct", "CLOUD… -o FILE", "surfaces with a certified error from point clouds", reconstruct_command},
+    {"visibility", "PATCHES --from x,y,z -o FILE", "what is seen from a place", visibility_command},
+    {"scene", "NAME -o FILE | --list", "write a built-in scene, or list them", scene_command},
+    {"info", "FILE | RUN", "what a file or a run folder holds", info_command},
+    {"config", "dump [SCENE]", "all options with unit, range and meaning, as TOML", config_command},
+};

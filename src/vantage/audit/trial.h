@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "vantage/audit/score.h"
+#include "vantage/world/lidar.h"
+#include "vantage/world/scene.h"
+
+namespace vantage {
+
+/// Everything a run depends on but the scene and the start.
+struct TrialOptions {
+  ExploreOptions explore;
+  LidarOptions lidar;
+};
+
+/// Lattice, eta, clearance and range that suit the scene; the rest as it stands by default.
+template <int Dim>
+[[nodiscard]] TrialOptions trial_options(const Scene<Dim>& scene);
+
+/// A place whose truth is known, in which runs and oracles are compared.
+template <int Dim>
+  requires SpatialDim<Dim>
+class Trial {
+ public:
+  /// Finds the reachable visible volume from the scene's start; lattice, eta, clearance and range are those of `options`.
+  Trial(const Scene<Dim>& scene, const TrialOptions& options);
+
+  [[nodiscard]] const Reference<Dim>& reference() const { return reference_; }
+  /// Reachable free places drawn at random.
+  [[nodiscard]] std::vector<Vec<Dim>> starts(std::int64_t count, std::int64_t seed) const;
+  /// What the oracles choose from; their first scan is taken at `start`.
+  [[nodiscard]] SightTable<Dim> sight_table(const Vec<Dim>& start, const OracleOptions& options = {}) const;
+  /// A run of the explorer from `start` with a simulated scanner, judged after every scan. `options` has the lattice of the reference.
+  [[nodiscard]] RunScore<Dim> run(const Vec<Dim>& start, const TrialOptions& options, const ScoreLimits& limits = {}) const;
+
+ private:
+  Scene<Dim> scene_;
+  RayCaster<Dim> truth_;
+  Reference<Dim> reference_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/planner/planner.h"
+
+#include <gtest/gtest.h>
+
+#include "vantage/base/parallel.h"
+#include "vantage/base/random.h"
+#include "vantage/field/distance.h"
+#include "vantage/field/redistance.h"
+#include "vantage/planner/boundary_metric.h"
+#include "vantage/planner/candidates.h"
+
+namespace vantage {
+namespace {
+
+template <class T>
+class PlannerTest : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(PlannerTest, Dimensions);
+
+constexpr double kH = 0.25;
+
+/// A belief made by hand: `state_at(position)` says what each node is.
+template <int Dim>
+struct HandMade {
+  Field<Dim, NodeState> state;
+  Field<Dim> psi, known_distance;
+
+  template <class StateAt>
+  HandMade(const Box<Dim>& box, StateAt&& state_at, double h = kH) : state(window_over(box, h)) {
+    Field<Dim, std::uint8_t> seen(state.window), obstacle(state.window);
+    for (std::size_t i = 0; i < state.values.size(); ++i) {
+      state[i] = state_at(state.window.position(i));
+      seen[i] = state[i] == NodeState::seen;
+      obstacle[i] = state[i] == NodeState::obstacle;
+    }
+    psi = signed_distance(seen, 8.0);
+    known_distance = distance_to_set(obstacle, 8.0);
+  }
+  [[nodiscard]] BeliefView<Dim> view() const { return {state, psi, known_distance}; }
+};
+
+template <int Dim>
+Box<Dim> cube(double half_side) {
+  return {Vec<Dim>::Constant(-half_side), Vec<Dim>::Constant(half_side)};
+}
+
+/// Seen for x < 0, unseen beyond: one wall of shadow boundary.
+template <int Dim>
+HandMade<Dim> half_space(double half_side) {
+  return HandMade<Dim>(cube<Dim>(half_side), [](const Vec<Dim>& p) { return p[0] < 0.0 ? NodeState::seen : NodeState::unseen; });
+}
+
+template <int Dim>
+Field<Dim> openness_one(const HandMade<Dim>& belief) {
+  return Field<Dim>(belief.state.window, 1.0F);
+}
+
+template <int Dim>
+Vec<Dim> on_axis(double x) {
+  Vec<Dim> p = Vec<Dim>::Zero();
+  p[0] = x;
+  return p;
+}
+
+/// Closed forms for a plane at distance D within range R (2D: a line): area integral of cos over the disc, and the cap behind it.
+struct OneWall {
+  double area, cap, angle;
+};
+template <int Dim>
+OneWall one_wall(double d, double r);
+template <>
+OneWall one_wall<2>(double d, double r) {
+  const double theta = std::acos(d / r);
+  return {2.0 * d * std::log(1.0 / std::cos(theta) + std::tan(theta)), r * r * theta - d * std::sqrt(r * r - d * d), 2.0 * theta};
+}
+template <>
+OneWall one_wall<3>(double d, double r) {
+  return {2.0 * kPi * d * (r - d), kPi / 3.0 * (r - d) * (r - d) * (2.0 * r + d), 2.0 * kPi * (1.0 - d / r)};
+}
+
+TYPED_TEST(PlannerTest, DirectionsAreEven) {
+  constexpr int Dim = TypeParam::value;
+  const auto all = spread_directions<Dim>(1000, 7);
+  Vec<Dim> mean = Vec<Dim>::Zero();
+  Eigen::Matrix<double, Dim, Dim> second = Eigen::Matrix<double, Dim, Dim>::Zero();
+  for (const Vec<Dim>& d : all) {
+    ASSERT_NEAR(d.norm(), 1.0, 1e-12);
+    mean += d / 1000.0;
+    second += d * d.transpose() / 1000.0;
+  }
+  EXPECT_LT(mean.norm(), 0.01);
+  EXPECT_LT((second - Eigen::Matrix<double, Dim, Dim>::Identity() / Dim).norm(), 0.01);
+  EXPECT_NE(spread_directions<Dim>(1000, 8)[0], all[0]);
+}
+
+TYPED_TEST(PlannerTest, RayFormOfOneWall) {
+  constexpr int Dim = TypeParam::value;
+  const auto belief = half_space<Dim>(6.0);
+  const auto openness = openness_one(belief);
+  const double wall = -0.5 * kH;  // The face between the last seen node and the first unseen.
+  const double d = 2.0, r = 5.0;
+  const RayMarch<Dim> march(belief.view(), openness, {0.0, r, 0.0});
+  const RaySums sums = march.look(on_axis<Dim>(wall - d), spread_directions<Dim>(4000, 1));
+  const OneWall truth = one_wall<Dim>(d, r);
+  EXPECT_NEAR(sums.solid_angle, truth.angle, 0.05 * truth.angle);
+  EXPECT_NEAR(sums.area, truth.area, 0.10 * truth.area);  // March steps of half a cell.
+  EXPECT_NEAR(sums.volume, truth.cap, 0.10 * truth.cap);
+}
+
+TYPED_TEST(PlannerTest, BoundarySumOfOneWallAgreesWithTheRayForm) {
+  constexpr int Dim = TypeParam::value;
+  const auto belief = half_space<Dim>(6.0);
+  const double d = 2.0, r = 5.0;
+  OpeningModel<Dim> opening(OpeningModel<Dim>::Rule::masks);
+  const Vec<Dim> z = on_axis<Dim>(-0.5 * kH - d);
+  opening.update(belief.view(), on_axis<Dim>(-5.9), 0.1);  // An observer too near-sighted to have looked.
+  const RayMarch<Dim> march(belief.view(), opening.openness(), {0.0, r, 0.0});
+  PlannerOptions options;
+  std::vector<BoundaryElement<Dim>> near;
+  for (const auto& element : boundary_elements<Dim>(belief.view(), opening.faces(), options))
+    if ((element.place - z).norm() <= r) near.push_back(element);
+  const double faces = boundary_metric<Dim>(near, march, z, options);
+  EXPECT_NEAR(faces, one_wall<Dim>(d, r).area, 0.05 * one_wall<Dim>(d, r).area);
+
+  options.elements = PlannerOptions::Elements::smeared;
+  near.clear();
+  for (const auto& element : boundary_elements<Dim>(belief.view(), opening.faces(), options))
+    if ((element.place - z).norm() <= r) near.push_back(element);
+  options.line_of_sight = false;
+  EXPECT_NEAR(boundary_metric<Dim>(near, march, z, options), one_wall<Dim>(d, r).area, 0.1 * one_wall<Dim>(d, r).area);
+  // As printed, places on the seen side count nothing, and the delta counts too much.
+  options.facing = PlannerOptions::Facing::behind;
+  EXPECT_EQ(boundary_metric<Dim>(near, march, z, options), 0.0);
+  EXPECT_GT(boundary_metric<Dim>(near, march, on_axis<Dim>(d), options), 0.0);
+}
+
+TYPED_TEST(PlannerTest, OpacityFadesTheUnseenAndObstaclesEndTheRay) {
+  constexpr int Dim = TypeParam::value;
+  const auto open = half_space<Dim>(6.0);
+  const HandMade<Dim> walled(cube<Dim>(6.0), [](const Vec<Dim>& p) { return p[0] < 0.0 ? NodeState::seen : p[0] < 2.0 ? NodeState::unseen : NodeState::obstacle; });
+  const auto openness = openness_one(open);
+  const auto rays = spread_directions<Dim>(1000, 1);
+  const auto volume = [&](const HandMade<Dim>& belief, double lambda) {
+    return RayMarch<Dim>(belief.view(), openness, {lambda, 5.0, 0.0}).look(on_axis<Dim>(-1.0), rays).volume;
+  };
+  EXPECT_LT(volume(open, 0.5), 0.7 * volume(open, 0.0));
+  EXPECT_LT(volume(walled, 0.0), 0.7 * volume(open, 0.0));
+  EXPECT_GT(volume(walled, 0.0), 0.0);
+}
+
+/// Oracle: samples a hundredth of a cell apart.
+TYPED_TEST(PlannerTest, LineOfSightEqualsDenseSampling) {
+  constexpr int Dim = TypeParam::value;
+  Random random(11);
+  std::vector<Vec<Dim>> centers;
+  const auto place = [&] {
+    Vec<Dim> p;
+    for (int a = 0; a < Dim; ++a) p[a] = random.uniform(-3.9, 3.9);
+    return p;
+  };
+  for (int k = 0; k < 6; ++k) centers.push_back(place());
+  const HandMade<Dim> belief(cube<Dim>(4.0), [&](const Vec<Dim>& p) {
+    for (const Vec<Dim>& c : centers)
+      if ((p - c).norm() < 1.2) return NodeState::unseen;
+    return NodeState::seen;
+  });
+  const auto openness = openness_one(belief);
+  const RayMarch<Dim> march(belief.view(), openness, {0.0, 100.0, 0.0});
+  int blocked = 0, disagree = 0;
+  for (int k = 0; k < 400; ++k) {
+    const Vec<Dim> a = place(), b = place();
+    if (belief.state.at(belief.state.window.nearest(a)) != NodeState::seen) continue;
+    bool clear = true;
+    const double own = std::sqrt(double{Dim}) * kH, length = (b - a).norm();
+    for (double t = own; t < length - 0.5; t += 0.01 * kH)
+      clear = clear && belief.state.at(belief.state.window.nearest(a + (b - a) * (t / length))) == NodeState::seen;
+    blocked += !clear;
+    disagree += clear != march.line_of_sight(a, b, 0.5);
+    if (clear) {
+      EXPECT_TRUE(march.line_of_sight(a, b, 0.5));  // Never blind where the dense march sees.
+    }
+  }
+  EXPECT_GT(blocked, 20);
+  EXPECT_LE(disagree, 4);  // Corners of less than half a cell.
+}
+
+/// Two rooms joined by a door of the given width in the wall x = 0.
+template <int Dim>
+HandMade<Dim> two_rooms(double door) {
+  return HandMade<Dim>(cube<Dim>(4.0), [=](const Vec<Dim>& p) {
+    const bool wall = std::abs(p[0]) < 0.2 && std::abs(p[1]) >= 0.5 * door;
+    return wall ? NodeState::obstacle : NodeState::seen;
+  });
+}
+
+TYPED_TEST(PlannerTest, ClearanceClosesNarrowDoors) {
+  constexpr int Dim = TypeParam::value;
+  const auto far_side = [](const HandMade<Dim>& belief, double clearance) {
+    const auto reached = reachable_nodes<Dim>(belief.view(), on_axis<Dim>(-3.0), clearance);
+    return reached.at(reached.window.nearest(on_axis<Dim>(3.0))) != 0;
+  };
+  EXPECT_TRUE(far_side(two_rooms<Dim>(2.0), 0.5));
+  EXPECT_FALSE(far_side(two_rooms<Dim>(2.0), 1.3));
+  EXPECT_FALSE(far_side(two_rooms<Dim>(0.0), 0.0));
+}
+
+TYPED_TEST(PlannerTest, MedialNodesOfACorridorLieOnItsMidline) {
+  constexpr int Dim = TypeParam::value;
+  const HandMade<Dim> corridor(cube<Dim>(4.0), [](const Vec<Dim>& p) { return std::abs(p[1]) < 1.6 ? NodeState::seen : NodeState::obstacle; });
+  const Vec<Dim> home = on_axis<Dim>(0.0);
+  const auto reached = reachable_nodes<Dim>(corridor.view(), home, 0.5);
+  const auto nodes = medial_nodes<Dim>(corridor.view(), reached, std::span(&home, 1), PlannerOptions{});
+  ASSERT_FALSE(nodes.empty());
+  for (const std::size_t node : nodes) {
+    EXPECT_LE(std::abs(reached.window.position(node)[1]), 1.01 * kH);
+    EXPECT_GE((reached.window.position(node) - home).norm(), 2.0 * kH);
+  }
+}
+
+TYPED_TEST(PlannerTest, CandidatesAreDistinctFewAndAimed) {
+  constexpr int Dim = TypeParam::value;
+  const auto belief = half_space<Dim>(6.0);
+  OpeningModel<Dim> opening(OpeningModel<Dim>::Rule::learned);
+  opening.update(belief.view(), on_axis<Dim>(-5.0), 80.0);
+  const RayMarch<Dim> march(belief.view(), opening.openness(), {0.0, 80.0, 0.0});
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < belief.state.values.size(); ++i)
+    if (belief.state[i] == NodeState::seen) seen.push_back(i);
+  const auto chosen = choose_candidates<Dim>(seen, opening.faces(), march, belief.state.window, 100, 3);
+  EXPECT_LE(chosen.size(), 101U);
+  EXPECT_GE(chosen.size(), 60U);
+  EXPECT_TRUE(std::adjacent_find(chosen.begin(), chosen.end(), std::greater_equal<>()) == chosen.end());
+  EXPECT_EQ(choose_candidates<Dim>(seen, opening.faces(), march, belief.state.window, 100, 3), chosen);
+}
+
+/// Faces that were looked at and stayed lose their credit; those of the same kind that open gain.
+TYPED_TEST(PlannerTest, OpeningProbabilityIsLearned) {
+  constexpr int Dim = TypeParam::value;
+  const auto shut = half_space<Dim>(4.0);
+  OpeningModel<Dim> stubborn(OpeningModel<Dim>::Rule::learned), yielding(OpeningModel<Dim>::Rule::learned);
+  const auto mean = [](const OpeningModel<Dim>& model) {
+    double sum = 0.0;
+    for (const auto& face : model.faces()) sum += face.probability / static_cast<double>(model.faces().size());
+    return sum;
+  };
+  stubborn.update(shut.view(), on_axis<Dim>(-3.0), 80.0);
+  const double first = mean(stubborn);
+  for (int k = 0; k < 3; ++k) stubborn.update(shut.view(), on_axis<Dim>(-3.0), 80.0);
+  EXPECT_LT(mean(stubborn), 0.3 * first);
+  for (double x = 0.0; x < 3.0; x += 1.0) {
+    const HandMade<Dim> belief(cube<Dim>(4.0), [x](const Vec<Dim>& p) { return p[0] < x ? NodeState::seen : NodeState::unseen; });
+    yielding.update(belief.view(), on_axis<Dim>(-3.0), 80.0);
+  }
+  EXPECT_GT(mean(yielding), first);
+}
+
+TYPED_TEST(PlannerTest, AClosedBoxIsCompleteAndNamesWhatIsEnclosed) {
+  constexpr int Dim = TypeParam::value;
+  const HandMade<Dim> box(cube<Dim>(4.0), [](const Vec<Dim>& p) {
+    const double r = p.template lpNorm<Eigen::Infinity>();
+    return r < 2.0 ? NodeState::seen : r < 2.6 ? NodeState::obstacle : NodeState::unseen;
+  });
+  Planner<Dim> planner(PlannerOptions{}, 80.0, 1);
+  const Decision<Dim> decision = planner.choose(box.view(), on_axis<Dim>(0.1), 1.0);
+  EXPECT_FALSE(decision.found);
+  EXPECT_EQ(decision.end, Decision<Dim>::End::nothing_can_open);
+  const Verdict<Dim> verdict = planner.assess(box.view());
+  EXPECT_DOUBLE_EQ(verdict.seen_fraction, 1.0);
+  ASSERT_FALSE(verdict.unseen.empty());
+  EXPECT_EQ(verdict.unseen[0].reason, "enclosed");
+}
+
+TYPED_TEST(PlannerTest, GoesToTheDoorByASafePath) {
+  constexpr int Dim = TypeParam::value;
+  // The second room is unseen but for what shows through the door.
+  const HandMade<Dim> belief(cube<Dim>(6.0), [](const Vec<Dim>& p) {
+    if (std::abs(p[0]) < 0.2 && std::abs(p[1]) > 1.0) return NodeState::obstacle;
+    return p[0] < 0.3 ? NodeState::seen : NodeState::unseen;
+  });
+  Planner<Dim> planner(PlannerOptions{}, 80.0, 1);
+  Vec<Dim> here = Vec<Dim>::Constant(-3.0);
+  const Decision<Dim> decision = planner.choose(belief.view(), here, 1.0);
+  ASSERT_TRUE(decision.found);
+  EXPECT_GT(decision.expected_volume, 1.0);
+  EXPECT_LT(std::abs(decision.position[1]), 2.5);
+  ASSERT_GE(decision.path.size(), 2U);
+  EXPECT_LT((decision.path.back() - decision.position).norm(), 1e-9);
+  for (std::size_t i = 1; i < decision.path.size(); ++i)
+    for (double t = 0.0; t <= 1.0; t += 0.05) {
+      const Vec<Dim> p = decision.path[i - 1] + t * (decision.path[i] - decision.path[i - 1]);
+      EXPECT_EQ(belief.state.at(belief.state.window.nearest(p)), NodeState::seen);
+    }
+  const Verdict<Dim> verdict = planner.assess(belief.view());
+  EXPECT_LT(verdict.seen_low, verdict.seen_fraction + 1e-12);
+  EXPECT_LE(verdict.seen_fraction, verdict.seen_high);
+  EXPECT_LT(verdict.seen_fraction, 1.0);
+}
+
+TYPED_TEST(PlannerTest, SameBitsForAnyNumberOfThreads) {
+  constexpr int Dim = TypeParam::value;
+  const auto belief = half_space<Dim>(4.0);
+  std::vector<std::vector<std::pair<std::size_t, float>>> results;
+  for (const int threads : {1, 2, 7}) {
+    const ThreadLimit limit(threads);
+    Planner<Dim> planner(PlannerOptions{}, 80.0, 1);
+    results.push_back(planner.choose(belief.view(), on_axis<Dim>(-3.0), 1.0).scored);
+  }
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(results[0], results[2]);
+}
+
+TEST(PlannerOptionsTest, RangesAreChecked) {
+  PlannerOptions options;
+  options.lambda_factor = -1.0;
+  EXPECT_ANY_THROW(Planner<2>(options, 80.0, 1));
+  options.lambda_factor = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_ANY_THROW(Planner<2>(options, 80.0, 1));
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <filesystem>
+
+#include "vantage/base/progress.h"
+#include "vantage/explore/explore.h"
+#include "vantage/session/result.h"
+#include "vantage/session/scan_log.h"
+#include "vantage/session/scenario.h"
+
+namespace vantage {
+
+/// What the outputs of a run are made from.
+template <int Dim>
+struct RunOutputs {
+  const Scenario& scenario;
+  const Scene<Dim>& scene;
+  const Explorer<Dim>& explorer;
+  const ScanLog<Dim>& log;
+};
+
+/// `result.json`.
+template <int Dim>
+[[nodiscard]] Json result_json(const RunOutputs<Dim>& run);
+
+/// Version, seed, and name and checksum of the inputs: the scene's name and its facets as loaded. No dates.
+template <int Dim>
+[[nodiscard]] Json manifest_json(const Scenario& scenario, const Scene<Dim>& scene);
+
+/// Writes every output of the run folder that is made from the scan log (interface.md's list without timing.json), each whole or not at all;
+/// adds their checksums to manifest.json. Throws io.
+template <int Dim>
+void save_outputs(const std::filesystem::path& folder, const RunOutputs<Dim>& run, Observer* observer);
+
+}  // namespace vantage

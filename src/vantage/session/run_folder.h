@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vantage {
+
+/// Names inside a run folder.
+namespace run_file {
+inline constexpr const char* kScanLog = "scans.log";
+inline constexpr const char* kScenario = "scenario.toml";
+inline constexpr const char* kManifest = "manifest.json";
+inline constexpr const char* kScans = "scans";
+inline constexpr const char* kStations = "stations.csv";
+inline constexpr const char* kSurface = "surface.ply";
+inline constexpr const char* kSurfaceGlb = "surface.glb";
+inline constexpr const char* kBelief = "belief.vti";
+inline constexpr const char* kPath = "path.csv";
+inline constexpr const char* kSteps = "steps.csv";
+inline constexpr const char* kReport = "report.html";
+inline constexpr const char* kTiming = "timing.json";
+inline constexpr const char* kResult = "result.json";
+}  // namespace run_file
+
+/// What to do with a run folder that is there already: refuse, make a new run in its place, or go on with it.
+enum class FolderMode { fresh, replace, resume };
+
+/// Throws bad_input unless a run may use `folder` that way: fresh wants nothing or an empty folder there, replace what fresh wants or a run, resume a
+/// run.
+void check_run_folder(const std::filesystem::path& folder, FolderMode mode);
+
+/// Whether `folder` holds a run.
+[[nodiscard]] bool is_run_folder(const std::filesystem::path& folder);
+
+/// A folder that goes away again, with the parents it needed, unless `keep` is called; what it replaces comes back then.
+class NewFolder {
+ public:
+  /// Makes `folder`; a run that is there is set aside. Throws io.
+  explicit NewFolder(std::filesystem::path folder);
+  ~NewFolder();
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  /// From now on the folder stays, and what it replaced is deleted.
+  void keep();
+
+ private:
+  void undo();
+
+  std::filesystem::path folder_, aside_;
+  std::vector<std::filesystem::path> made_;  ///< Outermost first.
+  bool kept_ = false;
+};
+
+}  // namespace vantage

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/session/scan_log.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "vantage/base/error.h"
+#include "vantage/io/atomic_file.h"
+#include "vantage/io/bytes.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::string_view kMagic = "VANTSCAN", kRecordMagic = "SCAN";
+constexpr std::uint32_t kVersion1 = 1;
+constexpr std::size_t kHeaderBytes = 16, kRecordHeaderBytes = 16;
+
+[[noreturn]] void fail_io(const std::filesystem::path& path, std::string_view what) {
+  throw Error(ErrorCode::io, fmt::format("{}: {}", what, std::strerror(errno)), path.string());
+}
+
+[[noreturn]] void fail_at(const std::filesystem::path& path, std::uint64_t offset, const std::string& message) {
+  throw Error(ErrorCode::bad_input, message, fmt::format("{}:{}", path.string(), offset));
+}
+
+std::string header_bytes(int dim) {
+  std::string out(kMagic);
+  put<std::uint32_t>(out, kVersion1);
+  put<std::uint32_t>(out, static_cast<std::uint32_t>(dim));
+  return out;
+}
+
+/// Dimension that a header announces.
+int parse_header(std::string_view bytes, const std::filesystem::path& path) {
+  if (bytes.size() < kHeaderBytes || bytes.substr(0, 8) != kMagic) fail_at(path, 0, "not a scan log");
+  const auto version = get<std::uint32_t>(bytes, 8), dim = get<std::uint32_t>(bytes, 12);
+  if (version != kVersion1) fail_at(path, 8, fmt::format("scan log of version {}: this program reads {}", version, kVersion1));
+  if (dim != 2 && dim != 3) fail_at(path, 12, fmt::format("dimension {}: must be 2 or 3", dim));
+  return static_cast<int>(dim);
+}
+
+constexpr std::size_t payload_head_bytes(int dim) { return 4 + 8 * static_cast<std::size_t>(dim + dim * dim + 5) + 8; }
+
+template <int Dim>
+std::string payload_bytes(const Scan<Dim>& scan, int index) {
+  std::string out;
+  put<std::uint32_t>(out, static_cast<std::uint32_t>(index));
+  for (int a = 0; a < Dim; ++a) put<double>(out, scan.origin[a]);
+  for (int r = 0; r < Dim; ++r)
+    for (int c = 0; c < Dim; ++c) put<double>(out, scan.world_from_sensor(r, c));
+  const ScanPattern& p = scan.pattern;
+  for (const double value : {p.step, p.horizontal_fov, p.vertical_fov, p.min_range, p.max_range}) put<double>(out, value);
+  put<std::uint64_t>(out, scan.ranges.size());
+  for (const float range : scan.ranges) put<float>(out, range);
+  return out;
+}
+
+template <int Dim>
+std::string record_bytes(const Scan<Dim>& scan, int index) {
+  const std::string payload = payload_bytes(scan, index);
+  std::string out(kRecordMagic);
+  put<std::uint32_t>(out, static_cast<std::uint32_t>(payload.size()));
+  put<std::uint32_t>(out, checksum(payload));
+  put<std::uint32_t>(out, checksum(out));
+  return out + payload;
+}
+
+/// Steps through a payload whose length has been checked.
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  template <class Number>
+  Number take() {
+    const Number value = get<Number>(bytes_, offset_);
+    offset_ += sizeof(Number);
+    return value;
+  }
+
+ private:
+  std::string_view bytes_;
+  std::size_t offset_ = 0;
+};
+
+/// A scan out of its payload, or the reason why it is none.
+template <int Dim>
+std::string parse_payload(std::string_view bytes, int index, Scan<Dim>& scan) {
+  if (bytes.size() < payload_head_bytes(Dim)) return "too short for a scan";
+  Reader reader(bytes);
+  const auto number = reader.take<std::uint32_t>();
+  if (number != static_cast<std::uint32_t>(index)) return fmt::format("scan {} stands at place {}", number, index);
+  for (int a = 0; a < Dim; ++a) scan.origin[a] = reader.take<double>();
+  for (int r = 0; r < Dim; ++r)
+    for (int c = 0; c < Dim; ++c) scan.world_from_sensor(r, c) = reader.take<double>();
+  ScanPattern& p = scan.pattern;
+  for (double* value : {&p.step, &p.horizontal_fov, &p.vertical_fov, &p.min_range, &p.max_range}) *value = reader.take<double>();
+  if (!scan.origin.allFinite() || !scan.world_from_sensor.allFinite()) return "the pose is not finite";
+  try {
+    check_options(p, "pattern");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  const auto rays = reader.take<std::uint64_t>();
+  if (rays != static_cast<std::uint64_t>(p.columns()) * static_cast<std::uint64_t>(p.rows<Dim>()))
+    return fmt::format("{} rays: the pattern has {} x {}", rays, p.columns(), p.rows<Dim>());
+  if (bytes.size() != payload_head_bytes(Dim) + 4 * rays) return fmt::format("{} bytes do not hold {} rays", bytes.size(), rays);
+  scan.ranges.resize(rays);
+  for (float& range : scan.ranges) range = reader.take<float>();
+  if (std::any_of(scan.ranges.begin(), scan.ranges.end(), [](float range) { return range < 0.0F; })) return "a range is negative";
+  return {};
+}
+
+std::string read_at(int file, const std::filesystem::path& path, std::uint64_t offset, std::size_t length) {
+  std::string bytes(length, '\0');
+  std::size_t done = 0;
+  while (done < length) {
+    const ssize_t got = ::pread(file, bytes.data() + done, length - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_io(path, "cannot be read");
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    offset += static_cast<std::uint64_t>(written);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+std::uint64_t file_bytes(int file, const std::filesystem::path& path) {
+  struct stat status{};
+  if (::fstat(file, &status) != 0) fail_io(path, "cannot be read");
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+void lock(int file, const std::filesystem::path& path) {
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0) throw Error(ErrorCode::io, "another process is writing this run", path.string());
+}
+
+}  // namespace
+
+template <int Dim>
+  requires SpatialDim<Dim>
+ScanLog<Dim> ScanLog<Dim>::create(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) fail_io(path, "cannot be made");
+  ScanLog log(path, file);
+  lock(file, path);
+  if (!write_at(file, 0, header_bytes(Dim)) || ::fsync(file) != 0) fail_io(path, "cannot be written");
+  log.end_ = kHeaderBytes;
+  return log;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+ScanLog<Dim> ScanLog<Dim>::open(const std::filesystem::path& path, Observer* observer) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0) fail_io(path, "cannot be opened");
+  ScanLog log(path, file);
+  lock(file, path);
+  const std::uint64_t size = file_bytes(file, path), end = log.list_records(size);
+  if (end == size) return log;
+  if (::ftruncate(file, static_cast<off_t>(end)) != 0 || ::fsync(file) != 0) fail_io(path, "cannot be cut");
+  if (observer != nullptr)
+    observer->warn(fmt::format("{}:{}: the last scan was not written to its end; {} bytes are cut off", path.string(), end, size - end));
+  return log;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+ScanLog<Dim> ScanLog<Dim>::open_to_read(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail_io(path, "cannot be opened");
+  ScanLog log(path, file);
+  log.list_records(file_bytes(file, path));
+  return log;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+ScanLog<Dim>::ScanLog(ScanLog&& other) noexcept
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), end_(other.end_), records_(std::move(other.records_)) {}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+ScanLog<Dim>::~ScanLog() {
+  if (file_ >= 0) ::close(file_);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::uint64_t ScanLog<Dim>::list_records(std::uint64_t bytes) {
+  const int dim = parse_header(read_at(file_, path_, 0, kHeaderBytes), path_);
+  if (dim != Dim) fail_at(path_, 12, fmt::format("a log of {} dimensions: {} are wanted", dim, Dim));
+  end_ = kHeaderBytes;
+  while (end_ < bytes && list_record(bytes)) {
+  }
+  return end_;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+bool ScanLog<Dim>::list_record(std::uint64_t bytes) {
+  const std::uint64_t left = bytes - end_;
+  const std::string head = read_at(file_, path_, end_, kRecordHeaderBytes);
+  if (head.size() < kRecordHeaderBytes) return false;
+  if (head.substr(0, 4) != kRecordMagic || get<std::uint32_t>(head, 12) != checksum(head.substr(0, 12))) {
+    // A machine that stops may leave zeros where the record was to go on; anything else is damage.
+    if (read_at(file_, path_, end_, left).find_first_not_of('\0', kRecordHeaderBytes) == std::string::npos) return false;
+    fail_at(path_, end_, "the scan log is damaged: no record begins here");
+  }
+  const auto length = get<std::uint32_t>(head, 4);
+  if (length > left - kRecordHeaderBytes) return false;
+  const std::string payload = read_at(file_, path_, end_ + kRecordHeaderBytes, length);
+  if (checksum(payload) != get<std::uint32_t>(head, 8)) {
+    if (length == left - kRecordHeaderBytes) return false;
+    fail_at(path_, end_, fmt::format("the scan log is damaged: the checksum of scan {} is wrong", size()));
+  }
+  Scan<Dim> scan;
+  if (const std::string reason = parse_payload(payload, size(), scan); !reason.empty()) fail_at(path_, end_, reason);
+  records_.push_back({end_ + kRecordHeaderBytes, length});
+  end_ += kRecordHeaderBytes + length;
+  return true;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Scan<Dim> ScanLog<Dim>::read(int index) const {
+  const Record& record = records_.at(static_cast<std::size_t>(index));
+  Scan<Dim> scan;
+  const std::string reason = parse_payload(read_at(file_, path_, record.offset, record.length), index, scan);
+  if (!reason.empty()) fail_at(path_, record.offset, reason);
+  return scan;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+void ScanLog<Dim>::append(const Scan<Dim>& scan) {
+  const std::string record = record_bytes(scan, size());
+  if (!write_at(file_, end_, record) || ::fsync(file_) != 0) {
+    const int reason = errno;
+    static_cast<void>(::ftruncate(file_, static_cast<off_t>(end_)));
+    errno = reason;
+    fail_io(path_, "cannot be written");
+  }
+  records_.push_back({end_ + kRecordHeaderBytes, static_cast<std::uint32_t>(record.size() - kRecordHeaderBytes)});
+  end_ += record.size();
+}
+
+int scan_log_dim(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail_io(path, "cannot be opened");
+  const std::string head = read_at(file, path, 0, kHeaderBytes);
+  ::close(file);
+  return parse_header(head, path);
+}
+
+template <int Dim>
+std::string scans_as_log(std::span<const Scan<Dim>> scans) {
+  std::string out = header_bytes(Dim);
+  int index = 0;
+  for (const Scan<Dim>& scan : scans) out += record_bytes(scan, index++);
+  return out;
+}
+
+template <int Dim>
+void remove_scans(const std::filesystem::path& path, std::span<const int> indices) {
+  std::vector<Scan<Dim>> kept;
+  {
+    const ScanLog<Dim> log = ScanLog<Dim>::open(path);
+    for (const int index : indices)
+      require(index >= 0 && index < log.size(), fmt::format("--remove {}: must be 0 .. {}", index, log.size() - 1), path.string());
+    for (int i = 0; i < log.size(); ++i)
+      if (std::find(indices.begin(), indices.end(), i) == indices.end()) kept.push_back(log.read(i));
+  }
+  const std::filesystem::path backup = path.string() + ".bak";
+  std::error_code error;
+  std::filesystem::remove(backup, error);
+  std::filesystem::create_hard_link(path, backup, error);
+  if (error) std::filesystem::copy_file(path, backup, error);  // A file system without links.
+  if (error) throw Error(ErrorCode::io, "cannot be kept as a backup: " + error.message(), path.string());
+  write_file(path, scans_as_log<Dim>(kept));
+}
+
+template class ScanLog<2>;
+template class ScanLog<3>;
+template std::string scans_as_log<2>(std::span<const Scan<2>>);
+template std::string scans_as_log<3>(std::span<const Scan<3>>);
+template void remove_scans<2>(const std::filesystem::path&, std::span<const int>);
+template void remove_scans<3>(const std::filesystem::path&, std::span<const int>);
+
+}  // namespace vantage

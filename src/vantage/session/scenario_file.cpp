@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/session/scenario_file.h"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+
+#include "vantage/base/error.h"
+#include "vantage/io/atomic_file.h"
+#include "vantage/io/bytes.h"
+
+namespace vantage {
+namespace {
+
+std::string value_text(const toml::node& node, const std::string& name, const std::string& place) {
+  if (const auto* v = node.as_string()) return v->get();
+  if (const auto* v = node.as_boolean()) return v->get() ? "true" : "false";
+  if (const auto* v = node.as_integer()) return fmt::format("{}", v->get());
+  if (const auto* v = node.as_floating_point()) return fmt::format("{}", v->get());
+  if (const auto* v = node.as_array()) {
+    std::vector<std::string> items;
+    for (const toml::node& item : *v) items.push_back(value_text(item, name, place));
+    return fmt::format("{}", fmt::join(items, ","));
+  }
+  throw Error(ErrorCode::bad_input, fmt::format("{}: must be a number, a word, true or false, or a list of numbers", name), place);
+}
+
+/// Parts of a scene's name that are files beside the scenario become paths to them.
+std::string beside(const std::filesystem::path& folder, const std::string& scene) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= scene.size();) {
+    const std::size_t end = std::min(scene.find('+', begin), scene.size());
+    const std::string part = scene.substr(begin, end - begin);
+    out += (begin > 0 ? "+" : "") + (std::filesystem::exists(folder / part) && !part.empty() ? (folder / part).string() : part);
+    begin = end + 1;
+  }
+  return out;
+}
+
+void add_table(std::string_view stage, const toml::table& table, const std::filesystem::path& path, std::vector<Setting>& settings) {
+  for (const auto& [key, node] : table) {
+    Setting setting{fmt::format("{}.{}", stage, key.str()), "", fmt::format("{}:{}", path.string(), key.source().begin.line)};
+    setting.value = value_text(node, setting.name, setting.where);
+    if (setting.name == "scene.name") setting.value = beside(path.parent_path(), setting.value);
+    settings.push_back(std::move(setting));
+  }
+}
+
+int line_of(const Setting& setting) { return std::stoi(setting.where.substr(setting.where.rfind(':') + 1)); }
+
+std::string in_quotes(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+/// A point, so that a real number stays one.
+std::string real(const std::string& text) { return text.find_first_of(".en") == std::string::npos ? text + ".0" : text; }
+
+/// A value that TOML reads back as what it is.
+std::string toml_value(const Option& option) {
+  const std::string text = option.text();
+  if (std::holds_alternative<Option::Choice>(option.value)) return in_quotes(text);
+  return std::holds_alternative<double*>(option.value) || std::holds_alternative<Option::Angle>(option.value) ? real(text) : text;
+}
+
+}  // namespace
+
+std::vector<Setting> read_scenario(const std::filesystem::path& path) {
+  std::vector<Setting> settings;
+  try {
+    const toml::table root = toml::parse(read_file(path), path.string());
+    for (const auto& [key, node] : root) {
+      const std::string place = fmt::format("{}:{}", path.string(), key.source().begin.line);
+      if (!node.is_table()) throw Error(ErrorCode::bad_input, fmt::format("{}: must stand in a table, say [explore]", key.str()), place);
+      add_table(key.str(), *node.as_table(), path, settings);
+    }
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorCode::bad_input, std::string(error.description()), fmt::format("{}:{}", path.string(), error.source().begin.line));
+  }
+  std::stable_sort(settings.begin(), settings.end(), [](const Setting& a, const Setting& b) { return line_of(a) < line_of(b); });
+  return settings;
+}
+
+std::string scenario_as_toml(Scenario scenario, bool documented) {
+  std::string out = "[scene]\n";
+  if (documented) out += "# Built-in name with parameters (vantage scene --list), mesh files joined by +, or a 2D map\n";
+  out += fmt::format("name = {}\n", in_quotes(scenario.scene));
+  if (documented) out += "# First vantage point [m]\n";
+  std::vector<std::string> start;
+  for (const double v : scenario.start) start.push_back(real(fmt::format("{}", v)));
+  out += fmt::format("start = [{}]\n", fmt::join(start, ", "));
+  std::string current = "scene";
+  for (const Option& option : list_options(scenario)) {
+    const std::string stage = option.name.substr(0, option.name.find('.'));
+    if (stage != current) out += fmt::format("\n[{}]\n", stage);
+    current = stage;
+    if (documented) out += fmt::format("# {} ({})\n", option.doc, option.allowed());
+    out += fmt::format("{} = {}\n", option.name.substr(stage.size() + 1), toml_value(option));
+  }
+  return out;
+}
+
+}  // namespace vantage
