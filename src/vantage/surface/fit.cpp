@@ -198,7 +198,8 @@ bool sample_rejects(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Fra
   if (frame.variance[Dim - 1] > rules.limit * rules.limit) return true;
   const std::vector<Site<Dim>> sample = spread_sample<Dim>(sites, cell);
   const auto off_plane = [&](const Site<Dim>& site) { return std::abs(frame.local(rules.snap.local(site))[Dim - 1]) > rules.limit; };
-  return std::any_of(sample.begin(), sample.end(), off_plane) || shows_hole<Dim>(sample, sites, cell, frame, rules.snap, rules.limit);
+  return std::any_of(sample.begin(), sample.end(), off_plane) ||
+         shows_hole<Dim>(probe_pairs<Dim>(sites, cell), sites, cell, frame, rules.snap, rules.limit);
 }
 
 }  // namespace
