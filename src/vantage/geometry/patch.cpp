@@ -135,7 +135,7 @@ template <int Dim>
 double distance_to_segment(const Patch<Dim>& patch, const Vec<Dim>& a, const Vec<Dim>& b) {
   const auto& v = patch.vertices;
   double best = std::min(distance(patch, a), distance(patch, b));
-  for (int i = 0; i < patch.count && patch.count >= 2; ++i)
+  for (int i = 0; i < patch.count; ++i)
     best = std::min(best, segment_distance<Dim>(a, b, v[i], v[(i + 1) % patch.count]));
   if (patch.count >= 3) {
     const double length = (b - a).norm();

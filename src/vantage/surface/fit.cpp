@@ -54,11 +54,21 @@ Feet<Rank> feet(const Projected<Dim>& points) {
   return out;
 }
 
+/// Does the region hold the box of the feet, up to rounding (which the slack of the certificate covers)?
+template <int Rank>
+bool holds_all(const RegionEdges<Rank>& edges, const Feet<Rank>& points) {
+  const ConvexRegion<Rank> box = outline(points);
+  double outside = -kInfinity;
+  for (int i = 0; i < box.count; ++i) outside = std::max(outside, edges.outside(box.vertices[i]));
+  return outside <= 1e-13;
+}
+
 /// Largest distance of the points to the region: closed form.
 template <int Rank>
 double farthest_point(const ConvexRegion<Rank>& region, const Feet<Rank>& points) {
   const RegionEdges<Rank> edges(region);
   double largest2 = 0.0;
+  if (holds_all(edges, points)) return std::sqrt(*std::max_element(points.height2.begin(), points.height2.end()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     typename ConvexRegion<Rank>::Place foot;
     for (int a = 0; a < Rank; ++a) foot[a] = points.at[a][i];
