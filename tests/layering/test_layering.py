@@ -64,6 +64,13 @@ def test_breach_is_found(tree, file, text, line, reason):
     assert breaches(tree(file, text)) == [(file, line, reason)]
 
 
+def test_header_for_tests_alone_may_ask_for_the_dimension(tree):
+    tree("src/vantage/scan/sample.h", "if constexpr (Dim == 3) {}\n")
+    tree("src/vantage/scan/scan_test.cpp", '#include "vantage/scan/sample.h"\n')
+    assert breaches(tree("src/vantage/scan/scan.cpp")) == []
+    assert len(breaches(tree("src/vantage/scan/scan.cpp", '#include "vantage/scan/sample.h"\n'))) == 1
+
+
 def test_breach_in_a_comment_is_none(tree):
     assert breaches(tree("src/vantage/base/error.h", '/*\n#include "vantage/geometry/vec.h"\n*/ // Dim == 2\n')) == []
 

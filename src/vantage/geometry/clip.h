@@ -31,6 +31,31 @@ struct ConvexRegion {
   [[nodiscard]] double measure() const;
 };
 
+/// Half-spaces of a region, to tell inside from outside fast.
+template <int Rank>
+class RegionEdges {
+ public:
+  using Place = typename ConvexRegion<Rank>::Place;
+  explicit RegionEdges(const ConvexRegion<Rank>& region) {
+    for (int i = 0; i < region.count; ++i)
+      if (const Place n = region.edge_normal(i); n.squaredNorm() > 0.0) {
+        normals_[count_] = n;
+        offsets_[count_++] = n.dot(region.vertices[i]);
+      }
+  }
+  /// Largest signed distance to an edge: at most that to the region, negative inside.
+  [[nodiscard]] double outside(const Place& p) const {
+    double most = -kInfinity;
+    for (int i = 0; i < count_; ++i) most = std::max(most, normals_[i].dot(p) - offsets_[i]);
+    return most;
+  }
+
+ private:
+  std::array<Place, ConvexRegion<Rank>::kMaxVertices> normals_;
+  std::array<double, ConvexRegion<Rank>::kMaxVertices> offsets_;
+  int count_ = 0;
+};
+
 /// Where the hyperplane through the frame's origin spanned by its first Dim - 1 axes meets `box`, in coordinates along those axes;
 /// empty if they do not meet in a piece of measure above rounding.
 template <int Dim>

@@ -30,28 +30,6 @@ struct Arena {
   }
 };
 
-/// Half-planes of a region: the largest signed distance to their edges tells inside from outside.
-template <int Rank>
-struct Edges {
-  using Place = typename ConvexRegion<Rank>::Place;
-  std::array<Place, ConvexRegion<Rank>::kMaxVertices> normal;
-  std::array<double, ConvexRegion<Rank>::kMaxVertices> offset;
-  int count = 0;
-
-  explicit Edges(const ConvexRegion<Rank>& region) {
-    for (int i = 0; i < region.count; ++i)
-      if (const Place n = region.edge_normal(i); n.squaredNorm() > 0.0) {
-        normal[count] = n;
-        offset[count++] = n.dot(region.vertices[i]);
-      }
-  }
-  [[nodiscard]] double outside(const Place& p) const {
-    double most = -kInfinity;
-    for (int i = 0; i < count; ++i) most = std::max(most, normal[i].dot(p) - offset[i]);
-    return most;
-  }
-};
-
 /// Feet in the cells of a lattice, so that a place finds those around it.
 template <int Rank>
 class Lattice {
@@ -224,7 +202,7 @@ class Search {
   };
 
   const ConvexRegion<Rank>& region_;
-  Edges<Rank> edges_;
+  RegionEdges<Rank> edges_;
   Arena<Rank>& arena_;
   double limit_;
   double lower_ = 0.0, upper_ = 0.0, tiny_ = 0.0;

@@ -87,7 +87,7 @@ std::string tag_overlay(const Vec<2>& place, const std::string& text) {
 
 std::string scale_overlay(double pixels_per_metre, int width, int height) {
   const double length = round_length(0.2 * width / pixels_per_metre);
-  const double x = 28.0, y = height - 26.0, end = x + length * pixels_per_metre;
+  const double x = 56.0, y = height - 56.0, end = x + length * pixels_per_metre;
   const std::string d = fmt::format("M{0:.1f} {2:.1f}v8H{1:.1f}v-8", x, end, y - 8.0);
   return fmt::format("<g class=\"scale\"><path class=\"casing\" d=\"{0}\"/><path d=\"{0}\"/><text x=\"{1:.1f}\" y=\"{2:.1f}\">{3}</text></g>", d,
                      0.5 * (x + end), y - 9.0, rounded(length) + "\u00a0m");

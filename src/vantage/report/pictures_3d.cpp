@@ -58,7 +58,7 @@ std::pair<double, double> height_range(const ReportInput<3>& input) {
 
 double point_radius(const ReportInput<3>& input, const Camera& camera) {
   const double drawn = static_cast<double>(point_count(input) / point_stride(input)) + 1.0;
-  return std::clamp(0.6 * std::sqrt(camera.width() * static_cast<double>(camera.height()) / drawn), 0.75, 3.0);
+  return std::clamp(0.6 * std::sqrt(camera.width() * static_cast<double>(camera.height()) / drawn), 0.85, 3.0);
 }
 
 Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
@@ -71,7 +71,7 @@ Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
   });
   Figure figure{"points", "Everything the scanner measured", {}, {}, {}};
   const std::size_t stride = point_stride(input);
-  const std::string share = stride > 1 ? fmt::format(" Every {}th is drawn.", stride) : std::string();
+  const std::string share = stride > 1 ? fmt::format(" One in {} is drawn.", stride) : std::string();
   figure.caption = fmt::format("{} points of {}, coloured by height, with the vantage points and the path through them.{}",
                                number(static_cast<std::int64_t>(point_count(input))), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
   figure.legend = legend_bar(css_gradient(ColourMap::viridis, kLowColour, kHighColour), quantity(low, "m"), quantity(high, "m")) + journey_legend();

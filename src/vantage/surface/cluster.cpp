@@ -10,7 +10,7 @@ constexpr std::size_t kSample = 128;  ///< More points than these are represente
 constexpr int kRounds = 4;
 constexpr double kProgress = 0.8;        ///< A round that thins the pieces by less is the last.
 constexpr std::size_t kQueries = 48;     ///< Places asked for a hole.
-constexpr double kClearHole = 1.1;       ///< The pieces of a sample are not quite those of all: so much wider than the limit must a hole be.
+constexpr double kNearlyAll = 1.2;       ///< The pieces of a sample are not quite those of all: by so much must they pass the limit to be given up.
 constexpr double kOutside = 1.0 / 64.0;  ///< Weight of the squared distance beyond a piece's box, against that off its plane.
 
 /// Piece of a plane: a frame, and the box of its points in it.
@@ -109,7 +109,7 @@ std::optional<Clusters<Dim>> two_clusters(GatheredSites<Dim>& sites, const Cell<
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     const Piece<Dim> first(clusters[0], cell, rules.snap), second(clusters[1], cell, rules.snap);
     const double thickness = std::max(first.thickness(), second.thickness());
-    const bool thin = thickness <= 2.0 * rules.limit;
+    const bool thin = thickness <= (few ? 1.0 : kNearlyAll) * rules.limit;
     if (!thin && thickness > kProgress * last) return std::nullopt;
     last = thickness;
     const auto nearer_second = [&](const Site<Dim>& site) {
@@ -124,8 +124,8 @@ std::optional<Clusters<Dim>> two_clusters(GatheredSites<Dim>& sites, const Cell<
     }
     if (!thin) return std::nullopt;
     if (few) return clusters;
-    if (shows_hole<Dim>(clusters[0], sites.view(), cell, first.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
-    if (shows_hole<Dim>(clusters[1], sites.view(), cell, second.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
+    if (shows_hole<Dim>(clusters[0], sites.view(), cell, first.frame, rules.snap, kNearlyAll * rules.limit)) return std::nullopt;
+    if (shows_hole<Dim>(clusters[1], sites.view(), cell, second.frame, rules.snap, kNearlyAll * rules.limit)) return std::nullopt;
     clusters = divide<Dim>(sites.all(), nearer_second);
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     return clusters;

@@ -57,11 +57,14 @@ Feet<Rank> feet(const Projected<Dim>& points) {
 /// Largest distance of the points to the region: closed form.
 template <int Rank>
 double farthest_point(const ConvexRegion<Rank>& region, const Feet<Rank>& points) {
+  const RegionEdges<Rank> edges(region);
   double largest2 = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     typename ConvexRegion<Rank>::Place foot;
     for (int a = 0; a < Rank; ++a) foot[a] = points.at[a][i];
-    largest2 = std::max(largest2, points.height2[i] + (region.closest(foot) - foot).squaredNorm());
+    double distance2 = points.height2[i];
+    if (edges.outside(foot) > 0.0) distance2 += (region.closest(foot) - foot).squaredNorm();
+    largest2 = std::max(largest2, distance2);
   }
   return std::sqrt(largest2);
 }
@@ -179,6 +182,15 @@ std::optional<CellFit<Dim>> fit_clusters(const Clusters<Dim>& clusters, const Ce
   return fit;
 }
 
+/// Is a patch on the frame's plane out of the question, by the mean square or a sample of the sites?
+template <int Dim>
+bool sample_rejects(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Frame<Dim>& frame, const FitRules<Dim>& rules) {
+  if (frame.variance[Dim - 1] > rules.limit * rules.limit) return true;
+  const std::vector<Site<Dim>> sample = spread_sample<Dim>(sites, cell);
+  const auto off_plane = [&](const Site<Dim>& site) { return std::abs(frame.local(rules.snap.local(site))[Dim - 1]) > rules.limit; };
+  return std::any_of(sample.begin(), sample.end(), off_plane) || shows_hole<Dim>(sample, sites, cell, frame, rules.snap, rules.limit);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -202,8 +214,7 @@ std::optional<CellFit<Dim>> fit_cell(GatheredSites<Dim>& sites, const Moments<Di
     if (parts == 2) return fit_clusters<Dim>(clusters, cell, rules);
   }
   const Frame<Dim> frame = principal_frame(moments, rules.snap.step());
-  const bool too_thick = frame.variance[Dim - 1] > rules.limit * rules.limit;  // The largest distance to the plane is at least the mean square's.
-  if (!too_thick && (few || !shows_hole<Dim>(spread_sample<Dim>(sites.view(), cell), sites.view(), cell, frame, rules.snap, rules.limit)))
+  if (few || !sample_rejects<Dim>(sites.view(), cell, frame, rules))
     if (const auto one = fit_flat<Dim>(sites.all(), frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
   for (int axis = 0; axis < Dim; ++axis)
     if (frame.variance[axis] > kThin * kThin * rules.limit * rules.limit)

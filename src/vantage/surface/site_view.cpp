@@ -8,11 +8,26 @@
 namespace vantage {
 namespace {
 
+constexpr std::size_t kManySites = 8192;  ///< More are sampled a level deeper.
+
 template <int Dim>
 void append(const Node<Dim>& node, std::vector<Site<Dim>>& out) {
   if (node.leaf) out.insert(out.end(), node.leaf->sites.begin(), node.leaf->sites.end());
   if (node.inner)
     for (const Node<Dim>& child : node.inner->children) append<Dim>(child, out);
+}
+
+/// First and middle sites of the cell's descendants so many levels down.
+template <int Dim>
+void spread(const SiteView<Dim>& sites, const Cell<Dim>& cell, int levels, std::vector<Site<Dim>>& out) {
+  if (sites.empty()) return;
+  if (levels == 0 || cell.bits == 0) {
+    out.push_back(sites[0]);
+    if (sites.size() > 1) out.push_back(sites[sites.size() / 2]);
+    return;
+  }
+  const auto parts = sites.split(cell);
+  for (int c = 0; c < Cell<Dim>::kChildren; ++c) spread<Dim>(parts[c], cell.child(c), levels - 1, out);
 }
 
 }  // namespace
@@ -76,15 +91,9 @@ bool is_empty_ball(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Vec<
 template <int Dim>
 std::vector<Site<Dim>> spread_sample(const SiteView<Dim>& sites, const Cell<Dim>& cell) {
   std::vector<Site<Dim>> near, sample;
-  const auto parts = sites.split(cell);
-  for (int c = 0; c < Cell<Dim>::kChildren && cell.bits > 1; ++c)
-    for (const SiteView<Dim>& part : parts[c].split(cell.child(c))) {
-      if (part.empty()) continue;
-      near.push_back(part[0]);
-      if (part.size() > 1) near.push_back(part[part.size() / 2]);
-    }
-  constexpr std::size_t kStride = 37;  // Prime to the number of sites below, which is made a multiple of 8 and is below 8 * 37.
-  const std::size_t round = (near.size() + 7) / 8 * 8;
+  spread<Dim>(sites, cell, sites.size() > kManySites ? 3 : 2, near);
+  constexpr std::size_t kStride = 397;  // A prime, so that the steps go through all sites.
+  const std::size_t round = near.size() % kStride == 0 ? near.size() + 1 : near.size();
   for (std::size_t i = 0; i < round; ++i)
     if (const std::size_t n = i * kStride % round; n < near.size()) sample.push_back(near[n]);
   return sample;

@@ -58,7 +58,8 @@ class GatheredSites {
 template <int Dim>
 [[nodiscard]] bool is_empty_ball(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Vec<Dim>& center, double radius);
 
-/// First and middle sites of the cell's grandchildren (spread over the cell, however dense the sites), those of neighbours far apart in the order.
+/// First and middle sites of the cell's grandchildren (spread over the cell, however dense the sites; a level deeper if they are many), those of
+/// neighbours far apart in the order.
 template <int Dim>
 [[nodiscard]] std::vector<Site<Dim>> spread_sample(const SiteView<Dim>& sites, const Cell<Dim>& cell);
 

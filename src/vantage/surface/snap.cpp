@@ -11,6 +11,24 @@ namespace {
 
 constexpr double kSteps = 4294967296.0;  // 2^32
 
+template <int Dim>
+struct Keyed {
+  std::uint64_t key;
+  Site<Dim> site;
+};
+
+/// Bytes with Dim - 1 zeros before each bit.
+template <int Dim>
+const std::array<std::uint64_t, 256>& spread_bytes() {
+  static const auto table = [] {
+    std::array<std::uint64_t, 256> out{};
+    for (std::size_t byte = 0; byte < out.size(); ++byte)
+      for (int bit = 0; bit < 8; ++bit) out[byte] |= static_cast<std::uint64_t>((byte >> bit) & 1U) << (bit * Dim);
+    return out;
+  }();
+  return table;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -54,17 +72,42 @@ double Snap<Dim>::slack() const {
 
 template <int Dim>
 void sort_sites(std::vector<Site<Dim>>& sites) {
-  std::sort(sites.begin(), sites.end(), morton_less<Dim>);
+  // By the leading 16 levels with a radix sort, then the few that share a cell of that size.
+  constexpr int kDigit = 12;
+  const auto& table = spread_bytes<Dim>();
+  std::vector<Keyed<Dim>> from(sites.size()), to(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    from[i] = {0, sites[i]};
+    for (int a = 0; a < Dim; ++a) from[i].key |= ((table[sites[i][a] >> 24] << (8 * Dim)) | table[(sites[i][a] >> 16) & 255U]) << a;
+  }
+  for (int shift = 0; shift < 16 * Dim; shift += kDigit) {
+    std::array<std::uint32_t, (1 << kDigit) + 1> start{};
+    const auto digit = [shift](const Keyed<Dim>& item) { return (item.key >> shift) & ((1U << kDigit) - 1U); };
+    for (const auto& item : from) ++start[digit(item) + 1];
+    for (std::size_t d = 0; d < (1U << kDigit); ++d) start[d + 1] += start[d];
+    for (const auto& item : from) to[start[digit(item)]++] = item;
+    std::swap(from, to);
+  }
+  for (std::size_t i = 0; i < sites.size(); ++i) sites[i] = from[i].site;
+  for (std::size_t begin = 0, end = 0; begin < sites.size(); begin = end) {
+    while (end < sites.size() && from[end].key == from[begin].key) ++end;
+    if (end - begin > 1)
+      std::sort(sites.begin() + static_cast<std::ptrdiff_t>(begin), sites.begin() + static_cast<std::ptrdiff_t>(end), morton_less<Dim>);
+  }
 }
 
 template <int Dim>
 std::array<std::span<const Site<Dim>>, Cell<Dim>::kChildren> Cell<Dim>::split(std::span<const Site<Dim>> sites) const {
   std::array<std::span<const Site<Dim>>, kChildren> parts;
-  for (int c = 0; c < kChildren; ++c) {
-    const auto end = std::partition_point(sites.begin(), sites.end(), [&](const Site<Dim>& site) { return child_of(site) <= c; });
-    parts[c] = sites.first(static_cast<std::size_t>(end - sites.begin()));
-    sites = sites.subspan(parts[c].size());
-  }
+  parts[0] = sites;
+  for (int a = Dim - 1; a >= 0; --a)  // Halves along the last axis, these along the one before, ...
+    for (int c = 0; c < kChildren; c += 2 << a) {
+      const std::span<const Site<Dim>> whole = parts[c];
+      const auto middle =
+          std::partition_point(whole.begin(), whole.end(), [&](const Site<Dim>& site) { return ((site[a] >> (bits - 1)) & 1U) == 0; });
+      parts[c] = whole.first(static_cast<std::size_t>(middle - whole.begin()));
+      parts[c + (1 << a)] = whole.subspan(parts[c].size());
+    }
   return parts;
 }
 

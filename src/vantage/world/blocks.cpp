@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kMerge = 1e-6;  // Faces nearer than this are one [m].
+constexpr double kMerge = 1e-3;  // Faces nearer than this are one, so that chance leaves no slivers [m].
 constexpr std::uint32_t kNone = 0xffffffff;
 
 /// Position of `value` among sorted `cuts`.
@@ -87,15 +87,15 @@ class Surface {
 }  // namespace
 
 template <int Dim>
-  requires SpatialDim<Dim> Blocks<Dim>
-&Blocks<Dim>::fill(const Box<Dim>& box) {
+  requires SpatialDim<Dim>
+Blocks<Dim>& Blocks<Dim>::fill(const Box<Dim>& box) {
   if (!box.empty()) steps_.push_back({box, true});
   return *this;
 }
 
 template <int Dim>
-  requires SpatialDim<Dim> Blocks<Dim>
-&Blocks<Dim>::carve(const Box<Dim>& box) {
+  requires SpatialDim<Dim>
+Blocks<Dim>& Blocks<Dim>::carve(const Box<Dim>& box) {
   if (!box.empty()) steps_.push_back({box, false});
   return *this;
 }

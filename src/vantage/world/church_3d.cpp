@@ -22,8 +22,10 @@ Scene<3> make_church(std::uint64_t seed) {
   const Placement<3> church = facing(9.0, 26.0, -1.0);  // Its front looks west.
   add_church(scenery, church);
   for (double y = 10.0; y < kChurchLength; y += 9.0) {
-    add_tree(scenery, church({8.3, y + random.uniform(-1.0, 1.0), 0.0}).head<2>(), random.uniform(5.0, 6.5), random);
-    add_tree(scenery, church({-8.3, y + random.uniform(-1.0, 1.0), 0.0}).head<2>(), random.uniform(5.0, 6.5), random);
+    for (const double x : {8.3, -8.3}) {
+      const Vec<3> foot = church({x, y + random.uniform(-1.0, 1.0), 0.0});
+      add_tree(scenery, foot.head<2>(), random.uniform(5.0, 6.5), random);
+    }
   }
 
   using Roof = House::Roof;

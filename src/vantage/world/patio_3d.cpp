@@ -55,11 +55,13 @@ Scene<3> make_patio(std::uint64_t seed) {
   add_pergola(scenery);
   add_low_walls(scenery);
   for (const Vec<2>& spot : {Vec<2>(7.6, 7.4), Vec<2>(12.2, 7.6), Vec<2>(7.7, 11.2), Vec<2>(12.4, 11.1), Vec<2>(16.2, 4.2)}) {
-    const Vec<3> place(spot[0] + random.uniform(-0.3, 0.3), spot[1] + random.uniform(-0.3, 0.3), 0.0);
+    const Vec<3> place{spot[0] + random.uniform(-0.3, 0.3), spot[1] + random.uniform(-0.3, 0.3), 0.0};
     add_table(scenery, Placement<3>{place}.at(Vec<3>::Zero(), random.uniform(-0.4, 0.4)));
   }
-  for (const Vec<2>& spot : {Vec<2>(14.6, 9.4), Vec<2>(10.0, 9.3), Vec<2>(17.3, 9.9), Vec<2>(5.6, 4.0)})
-    add_tree(scenery, spot + Vec<2>(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)), random.uniform(5.5, 7.0), random);
+  for (const Vec<2>& spot : {Vec<2>(14.6, 9.4), Vec<2>(10.0, 9.3), Vec<2>(17.3, 9.9), Vec<2>(5.6, 4.0)}) {
+    const Vec<2> foot{spot[0] + random.uniform(-0.3, 0.3), spot[1] + random.uniform(-0.3, 0.3)};
+    add_tree(scenery, foot, random.uniform(5.5, 7.0), random);
+  }
   return scenery.scene(setting);
 }
 

@@ -100,6 +100,22 @@ TEST(Reach, EveryPlaceOfChurchAndHall) {
   expect_all_reached(alone([](Scenery<3>& scenery) { add_hall(scenery, {}); }), 5000);
 }
 
+TEST(Reach, DoorsAreThreeStepsWide) {
+  for (const char* name : {"office", "town2d:houses=4", "blocks:columns=3,rows=3"}) {
+    SCOPED_TRACE(name);
+    auto scene = std::get<Scene<2>>(make_scene(name));
+    scene.clearance = 1.5 * scene.voxel - 1e-6;  // Of a disc three steps wide, on a finer lattice.
+    scene.voxel *= 0.5;
+    expect_all_reached(scene, 1000);
+  }
+  Random random(3);
+  Scene<3> scene = alone([&](Scenery<3>& scenery) { add_house(scenery, {}, {.rooms = 4}, random); });
+  scene.clearance = 1.5 * scene.voxel;
+  scene.voxel *= 0.25;
+  scene.start += Vec<3>::Constant(0.3);
+  expect_all_reached(scene, 1000);
+}
+
 TEST(Reach, TellsARoomWithoutADoor) {
   const Reach<3> reach = explore_all(alone([](Scenery<3>& scenery) { add_yard_wall(scenery, {}, {Vec<2>(0.0, 0.0), Vec<2>(6.0, 6.0)}, 3.0, {}); }));
   EXPECT_EQ(reach.cut_off.size(), 0u);  // Open above.
@@ -113,10 +129,8 @@ TEST(Reach, TellsARoomWithoutADoor) {
 TEST(Reach, EveryPlaceOfTheSmallerScenes) {
   for (const SceneInfo& info : scene_list()) {
     if (info.name == "town") continue;  // Too many nodes for here; it is made of the same houses.
-    for (const char* seed : {":seed=1", ":seed=2"}) {
-      SCOPED_TRACE(info.name + seed);
-      std::visit([](const auto& scene) { expect_all_reached(scene, 1000); }, make_scene(info.name + seed));
-    }
+    SCOPED_TRACE(info.name);
+    std::visit([](const auto& scene) { expect_all_reached(scene, 1000); }, make_scene(info.name + ":seed=2"));
   }
 }
 

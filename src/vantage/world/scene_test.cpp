@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <map>
+#include <numeric>
 
 #include "vantage/base/error.h"
 #include "vantage/geometry/patch.h"
@@ -103,6 +104,18 @@ TEST(Scene, StartIsFreeWithClearance) {
   });
 }
 
+TEST(Scene, DomainCoversTheThings) {
+  for_every_scene([]<int Dim>(const Scene<Dim>& scene) {
+    if (scene.name == "office" || scene.name == "patio") return;  // Their buildings go on beyond the domain.
+    Box<Dim> things;
+    for (const auto& part : scene.parts)
+      for (std::uint32_t f = part.first; f < part.first + part.count && part.name != "ground"; ++f)
+        for (std::uint32_t corner : scene.mesh.facets[f]) things.extend(scene.mesh.vertices[corner]);
+    EXPECT_TRUE(scene.domain.contains(things.low) && scene.domain.contains(things.high))
+        << things.low.transpose() << " .. " << things.high.transpose();
+  });
+}
+
 TEST(Scene, EqualSeedsGiveEqualBytesAndOthersDoNot) {
   for (const SceneInfo& info : scene_list()) {
     SCOPED_TRACE(info.name);
@@ -126,6 +139,85 @@ TEST(Scene, CountsAreKept) {
   }
   EXPECT_EQ(facets("planar:blobs=12,seed=7"), 1200u);
   EXPECT_EQ(facets("discs:discs=40,seed=7"), 40u * 64u);
+}
+
+/// The connected bodies of one part: the places of each.
+std::vector<std::vector<Vec<3>>> bodies(const Scene<3>& scene, std::string_view kind) {
+  const auto part = std::find_if(scene.parts.begin(), scene.parts.end(), [&](const auto& p) { return p.name == kind; });
+  std::vector<std::uint32_t> parent(scene.mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::map<std::uint32_t, std::vector<Vec<3>>> found;
+  for (std::uint32_t f = part->first; f < part->first + part->count; ++f)
+    for (std::uint32_t corner : scene.mesh.facets[f]) parent[root(corner)] = root(scene.mesh.facets[f][0]);
+  for (std::uint32_t f = part->first; f < part->first + part->count; ++f)
+    for (std::uint32_t corner : scene.mesh.facets[f]) found[root(corner)].push_back(scene.mesh.vertices[corner]);
+  std::vector<std::vector<Vec<3>>> all;
+  for (auto& [key, places] : found) all.push_back(std::move(places));
+  return all;
+}
+
+/// Widest gap between two bodies, seen from above, across the sides of the first; negative if they overlap [m].
+double gap_between(const std::vector<Vec<3>>& a, const std::vector<Vec<3>>& b) {
+  const auto span = [](const std::vector<Vec<3>>& places, const Vec<2>& axis) {
+    std::array<double, 2> range{kInfinity, -kInfinity};
+    for (const Vec<3>& p : places) range = {std::min(range[0], axis.dot(p.head<2>())), std::max(range[1], axis.dot(p.head<2>()))};
+    return range;
+  };
+  Vec<2> side = Vec<2>::Zero();
+  for (std::size_t i = 1; i < a.size() && side.norm() < 0.1; ++i) side = (a[i] - a[0]).head<2>();
+  side.normalize();
+  double widest = -kInfinity;
+  for (const Vec<2>& axis : {side, Vec<2>(-side[1], side[0])}) {
+    const auto ours = span(a, axis), theirs = span(b, axis);
+    widest = std::max({widest, ours[0] - theirs[1], theirs[0] - ours[1]});
+  }
+  return widest;
+}
+
+/// The places of a body below a height.
+std::vector<Vec<3>> foot_of(const std::vector<Vec<3>>& body, double height) {
+  std::vector<Vec<3>> foot;
+  std::copy_if(body.begin(), body.end(), std::back_inserter(foot), [&](const Vec<3>& p) { return p[2] < height; });
+  return foot;
+}
+
+TEST(Town, HasThirtyBuildingsApart) {
+  for (const char* spec : {"town", "town:seed=5"}) {
+    const auto town = std::get<Scene<3>>(make_scene(spec));
+    EXPECT_LT(town.mesh.facets.size(), 200000u);
+    std::vector<std::vector<Vec<3>>> buildings;
+    for (const char* kind : {"house", "church"})
+      for (const auto& body : bodies(town, kind)) buildings.push_back(foot_of(body, 0.0));
+    EXPECT_EQ(buildings.size(), 30u);
+    for (std::size_t i = 0; i < buildings.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) EXPECT_GE(std::max(gap_between(buildings[i], buildings[j]), gap_between(buildings[j], buildings[i])), 1.0);
+    for (const char* kind : {"pole", "vehicle", "tree"})
+      for (const auto& thing : bodies(town, kind)) {
+        const std::vector<Vec<3>> foot = foot_of(thing, 2.0);
+        if (foot.empty()) continue;  // A crown or a lamp.
+        for (const auto& building : buildings) EXPECT_GE(gap_between(building, foot), 0.3) << kind << " " << foot[0].transpose();
+      }
+    for (const char* kind : {"wall", "roof", "wire", "furniture", "column", "stair", "kerb"}) EXPECT_FALSE(bodies(town, kind).empty()) << kind;
+  }
+}
+
+TEST(Town, WiresAreThinAndHangBetweenPoles) {
+  const auto town = std::get<Scene<3>>(make_scene("town"));
+  const auto poles = bodies(town, "pole");
+  for (const auto& wire : bodies(town, "wire")) {
+    double low = kInfinity, high = 0.0;
+    for (const Vec<3>& p : wire) low = std::min(low, p[2]), high = std::max(high, p[2]);
+    EXPECT_GT(low, 5.0);
+    EXPECT_GT(high - low, 0.4);                        // Sag.
+    const double across = (wire[0] - wire[2]).norm();  // Neighbouring corners of a hexagon: its radius.
+    EXPECT_GE(across, 0.009);
+    EXPECT_LE(across, 0.021);
+    EXPECT_TRUE(std::any_of(poles.begin(), poles.end(), [&](const auto& pole) { return (pole[0] - wire[0]).template head<2>().norm() < 1.5; }));
+  }
 }
 
 std::string message_of(std::string_view spec) {

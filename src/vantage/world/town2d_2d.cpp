@@ -16,7 +16,7 @@ const Vec<2> kLot(24.0, 30.0);  // [m]
 Blocks<2> draw_house(Random& random) {
   constexpr double kYard = 7.0;
   const FloorPlanOptions options{.rooms = 2 + static_cast<int>(random.below(4)), .wall = 0.4, .window = 1.2, .min_side = 3.0};
-  const Vec<2> half(random.uniform(5.5, 8.0), random.uniform(4.5, 6.5));
+  const Vec<2> half{random.uniform(5.5, 8.0), random.uniform(4.5, 6.5)};
   const Box<2> outer{-half, half};
   const FloorPlan plan = plan_rooms(outer.grown(-options.wall), options, random);
   Blocks<2> house;
@@ -46,7 +46,7 @@ Scene<2> make_town2d(int houses, std::uint64_t seed) {
   for (int i = 0; i < houses; ++i) {
     const Blocks<2> house = draw_house(random);
     const Vec<2> middle = kLot.cwiseProduct(Vec<2>(i % columns + 0.5, i / columns + 0.5)) - Vec<2>(0.0, 2.5);
-    const Vec<2> shift(random.uniform(-1.5, 1.5), random.uniform(-2.0, 2.0));
+    const Vec<2> shift{random.uniform(-1.5, 1.5), random.uniform(-2.0, 2.0)};
     house.append_to(scenery["house"], Placement<2>{middle + shift}.at(Vec<2>::Zero(), random.uniform(-0.12, 0.12)));
   }
   return scenery.scene(setting);

@@ -90,7 +90,10 @@ void add_square(Scenery<3>& scenery, Random& random) {
   const Box<2> yard{Vec<2>(-11.5, 3.0), Vec<2>(11.5, kChurchLength + 3.5)};  // In the church's frame, open towards the square.
   add_yard_wall(scenery, church, yard, 1.3, {{Vec<2>(-11.0, 2.0), Vec<2>(11.0, 6.0)}, {Vec<2>(-1.5, 38.0), Vec<2>(1.5, 42.0)}});
   for (double y = 9.5; y < kChurchLength; y += 8.5)
-    for (const double x : {-9.0, 9.0}) add_tree(scenery, church({x, y + random.uniform(-1.0, 1.0), 0.0}).head<2>(), random.uniform(5.0, 7.0), random);
+    for (const double x : {-9.0, 9.0}) {
+      const Vec<3> foot = church({x, y + random.uniform(-1.0, 1.0), 0.0});
+      add_tree(scenery, foot.head<2>(), random.uniform(5.0, 7.0), random);
+    }
   add_fountain(scenery, {109.0, 89.0});
   for (const double turn : {0.25, 0.75, 1.25, 1.75}) {
     const auto [s, c] = sin_cos(turn * kPi);
@@ -102,7 +105,7 @@ void add_square(Scenery<3>& scenery, Random& random) {
 
 /// The hall with its lorry in a walled yard.
 void add_yard(Scenery<3>& scenery, const Street& lane, Random& random) {
-  const Placement<3> place = lane.side(true, 10.0).at({0.0, 15.0, 0.0});
+  const Placement<3> place = lane.side(true, 14.0).at({0.0, 15.0, 0.0});
   add_hall(scenery, place);
   const Box<2> yard{Vec<2>(-4.0, -10.5), Vec<2>(28.0, 16.5)};
   add_yard_wall(scenery, place, yard, 2.4, {{Vec<2>(8.0, -11.0), Vec<2>(13.0, -9.0)}, {Vec<2>(27.0, 14.0), Vec<2>(29.0, 16.0)}});
@@ -126,21 +129,21 @@ Scene<3> make_town(std::uint64_t seed) {
   const Street back_lane{Vec<2>(89.0, 113.0), Vec<2>(206.0, 108.0), 5.5}, yard_lane{Vec<2>(-6.0, 104.0), Vec<2>(89.4, 109.0), 5.5};
   const std::vector<Row> rows{{west, true, 8.0, 88.0, 5},
                               {west, false, 8.0, 86.0, 5},
-                              {east, true, 72.0, 108.0, 2},
-                              {east, false, 14.0, 108.0, 5},
-                              {back_lane, true, 10.0, 110.0, 5},
-                              {back_lane, false, 76.0, 110.0, 2},
-                              {yard_lane, true, 46.0, 84.0, 2},
-                              {south, true, 34.0, 70.0, 2},
+                              {east, true, 72.0, 106.0, 2},
+                              {east, false, 14.0, 106.0, 5},
+                              {back_lane, true, 10.0, 108.0, 5},
+                              {back_lane, false, 76.0, 108.0, 2},
+                              {yard_lane, true, 50.0, 84.0, 2},
+                              {south, true, 34.0, 68.0, 2},
                               // Pavements alone: along the square, and out of town.
                               {east, true, 5.0, 70.0, 0},
                               {back_lane, false, 5.0, 74.0, 0},
                               {north, false, 6.0, 38.0, 0},
                               {north, true, 6.0, 34.0, 0},
-                              {north, true, 44.0, 85.0, 0},
-                              {north, false, 48.0, 85.0, 0},
+                              {north, true, 44.0, 77.0, 0},
+                              {north, false, 48.0, 77.0, 0},
                               {south, true, 6.0, 32.0, 0},
-                              {south, false, 6.0, 74.0, 0}};
+                              {south, false, 6.0, 68.0, 0}};
 
   Scenery<3> scenery;
   add_ground(scenery["ground"], {Vec<2>(-20.0, -20.0), Vec<2>(220.0, 170.0)}, 0.0, 10.0);
@@ -153,7 +156,7 @@ Scene<3> make_town(std::uint64_t seed) {
   add_yard(scenery, yard_lane, random);
   std::vector<Vec<2>> feet;
   add_poles(feet, west, 8.0, 84.0, 25.0);
-  add_poles(feet, east, 12.0, 108.0, 24.0);
+  add_poles(feet, east, 12.0, 109.0, 24.0);
   add_power_line(scenery, feet);
   feet.clear();
   add_poles(feet, back_lane, 8.0, 108.0, 25.0);
