@@ -29,7 +29,7 @@ struct SurfaceStatistics {
   std::int64_t nodes = 0, leaves = 0;
   std::int64_t fits = 0;          ///< Polygons in 3D, segments in 2D.
   std::int64_t segments = 0;      ///< Rank-1 fits in 3D.
-  std::int64_t loose_points = 0;  ///< Measured points kept as themselves.
+  std::int64_t loose_points = 0;  ///< Measured points kept as themselves, or one of several within eta of it.
   double eta = 0.0;               ///< [m]
   double data_to_surface = 0.0;   ///< Certified upper bound, all points [m].
   double surface_to_data = 0.0;   ///< Certified upper bound, all patches [m].
@@ -62,7 +62,7 @@ class HausdorffTree {
 
   /// All patches in the order of the cells (Morton).
   [[nodiscard]] std::vector<Patch<Dim>> patches() const;
-  /// Those of cells that meet `box`.
+  /// Those whose bounding boxes meet `box`, in the same order. Cost follows the cells that meet it.
   [[nodiscard]] std::vector<Patch<Dim>> patches(const Box<Dim>& box) const;
   [[nodiscard]] SurfaceStatistics statistics() const;
   [[nodiscard]] const SurfaceOptions& options() const;
