@@ -100,7 +100,7 @@ Panel metric_panel(const Snapshot<Dim>& snapshot, const Frame& frame) {
   const std::string after = fmt::format("After scan {}{}", snapshot.step, height_text(snapshot));
   if (snapshot.has_next) {
     panel.overlay += cross_overlay(on_map<Dim>({snapshot.next}, camera)[0]);
-    panel.caption = fmt::format("{}: best place {}, E = {}", after, place_text(snapshot.next), number(static_cast<double>(largest(snapshot.metric))));
+    panel.caption = fmt::format("{}: best place {}", after, place_text(snapshot.next));
   } else {
     panel.caption = after + ": nothing left to visit";
   }

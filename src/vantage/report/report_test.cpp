@@ -133,7 +133,12 @@ TYPED_TEST(Report, NamesAreEscaped) {
 TYPED_TEST(Report, TheVerdictIsSaidAsItIs) {
   constexpr int Dim = TypeParam::value;
   ReportInput<Dim> input = this->input();
-  input.verdict = {true, "nothing that remains can open", 0.99968, 0.9991, 0.99999, {}};
+  input.verdict = {};
+  input.verdict.complete = true;
+  input.verdict.reason = "nothing that remains can open";
+  input.verdict.seen_fraction = 0.99968;
+  input.verdict.seen_low = 0.9991;
+  input.verdict.seen_high = 0.99999;
   EXPECT_EQ(verdict_text(input), "6\u00a0scans saw 99.96\u00a0% of what can be seen here (between 99.91\u00a0% and 100.00\u00a0%). Nothing that remains can open.");
   EXPECT_NE(header_html(input).find("<b>Complete.</b>"), std::string::npos);
   input.verdict.complete = false;

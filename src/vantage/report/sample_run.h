@@ -184,8 +184,17 @@ ReportInput<Dim> run(const Size& size = {}) {
   for (std::size_t i = 0; i < window.size(); ++i) input.state[i] = state_of<Dim>(boxes, stations, window.position(i), 0.6 * size.spacing);
   for (int k = 0; k < size.scans; ++k) input.snapshots.push_back(make_snapshot<Dim>(boxes, stations, k, window));
 
-  input.verdict = {false, "unseen space remains and no plan reaches it", 0.997, 0.9952, 0.9981, {}};
-  for (const Box<Dim>& box : boxes) input.verdict.unseen.push_back({box.size().prod(), box, input.verdict.unseen.size() % 3 == 1 ? "no reachable view" : "enclosed"});
+  input.verdict.reason = "unseen space remains and no plan reaches it";
+  input.verdict.seen_fraction = 0.997;
+  input.verdict.seen_low = 0.9952;
+  input.verdict.seen_high = 0.9981;
+  for (const Box<Dim>& box : boxes) {
+    UnseenRegion<Dim> region;
+    region.volume = box.size().prod();
+    region.box = box;
+    region.reason = input.verdict.unseen.size() % 3 == 1 ? "no reachable view" : "enclosed";
+    input.verdict.unseen.push_back(region);
+  }
   std::stable_sort(input.verdict.unseen.begin(), input.verdict.unseen.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
   input.surface.points = 1;
   input.surface.fits = static_cast<std::int64_t>(input.patches.size()) - 201;

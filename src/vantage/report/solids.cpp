@@ -24,8 +24,8 @@ void draw_patch(Raster& raster, const Patch<3>& patch, Colours colours) {
   const auto corners = patch.corners();
   const bool kinds = colours == Colours::by_kind;
   switch (patch.rank()) {
-    case 0: raster.point(corners[0], kinds ? 1.3 : 0.8, kinds ? kLoose : scaled(kClay, 0.75)); break;
-    case 1: raster.segment(corners[0], corners[1], 2.0, kinds ? kWire : scaled(kClay, 0.7)); break;
+    case 0: raster.point(corners[0], 1.2, kinds ? kLoose : scaled(kClay, 0.9)); break;
+    case 1: raster.segment(corners[0], corners[1], 2.0, kinds ? kWire : scaled(kClay, 0.84)); break;
     default: raster.polygon(corners, lit_clay(patch, raster.camera()));
   }
 }

@@ -5,7 +5,7 @@
 
 namespace vantage {
 
-inline constexpr Rgb kClay{232, 227, 216}, kWire{14, 148, 160}, kLoose{234, 120, 40}, kSection{52, 60, 76};
+inline constexpr Rgb kClay{232, 227, 216}, kWire{86, 148, 152}, kLoose{206, 160, 116}, kSection{52, 60, 76};
 
 enum class Colours { by_kind, clay };
 

@@ -105,7 +105,7 @@ std::string curves_html(const ReportInput<Dim>& input) {
               100.0 * input.verdict.seen_low, 100.0 * input.verdict.seen_high, {}};
   share.curves.push_back(named(over_scans(steps, [](const Step& s) { return 100.0 * s.seen_fraction; }), percent(steps.back().seen_fraction), "var(--c1)"));
 
-  Chart gain{"New " + word + " of each scan", "What each scan saw first, beside what the planner expected of it.", "scan", unit, true, 0, 0, 0, 0, {}};
+  Chart gain{"New " + word + " of each scan", "What each scan was the first to see, beside what the planner expected of it; scans that showed nothing new are left out.", "scan", unit, true, 0, 0, 0, 0, {}};
   Curve expected = over_scans(steps, [](const Step& s) { return s.expected_volume; });
   for (double& x : expected.x) x += 1.0;  // It speaks of the scan that follows.
   expected.x.pop_back();
