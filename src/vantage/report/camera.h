@@ -25,8 +25,8 @@ struct Frame {
 /// Looks at a box so that it fills the frame; the picture takes the contents' own proportions.
 class Camera {
  public:
-  /// Perspective bird's view with a long lens, such that all of `outline`, places in the box, just fits. `azimuth` is the compass direction of the look,
-  /// counter-clockwise from the first axis; `elevation` how far it looks down [rad].
+  /// Perspective bird's view with a long lens, such that all of `outline`, places in the box, just fits. `azimuth` is the compass direction of the
+  /// look, counter-clockwise from the first axis; `elevation` how far it looks down [rad].
   static Camera bird(const Box<3>& box, std::span<const Vec<3>> outline, double azimuth, double elevation, const Frame& frame);
   /// Orthographic, straight down, first axis to the right.
   static Camera map(const Box<3>& box, const Frame& frame);

@@ -101,20 +101,23 @@ Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
   const std::size_t stride = point_stride(input);
   const std::string share = stride > 1 ? fmt::format(" One in {} is drawn.", stride) : std::string();
   figure.caption = fmt::format("{} points of {}, coloured by height, with the vantage points and the path through them.{}",
-                               number(static_cast<std::int64_t>(point_count(input))), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
+                               number(static_cast<std::int64_t>(point_count(input))),
+                               counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
   figure.legend = legend_bar(css_gradient(ColourMap::viridis, kLowColour, kHighColour), height_text(low), height_text(high)) + journey_legend();
-  figure.panels.push_back({resolved(raster, {0.8}), journey_overlay(input, camera),
-                           fmt::format("Bird's view of the measured points, height {} to {}.", height_text(low), height_text(high)), {}});
+  figure.panels.push_back({resolved(raster, {0.8}),
+                           journey_overlay(input, camera),
+                           fmt::format("Bird's view of the measured points, height {} to {}.", height_text(low), height_text(high)),
+                           {}});
   return figure;
 }
 
 Figure surface_figure(const ReportInput<3>& input, const Camera& camera) {
   Raster raster(camera);
-  draw_patches(raster, input.patches, input.domain, Colours::by_kind);
+  draw_patches(raster, input.patches, {input.domain, height_range(input), Colours::by_kind});
   Figure figure{"surface", "The surface rebuilt from the points", {}, {}, {}};
-  figure.caption = fmt::format("{} flat pieces, {} thin ones and {} single points; no measured point is farther than {} from them.",
-                               number(input.surface.fits), number(input.surface.segments), number(input.surface.loose_points),
-                               quantity(input.surface.data_to_surface, "m"));
+  figure.caption =
+      fmt::format("{} flat pieces, {} thin ones and {} single points; no measured point is farther than {} from them.", number(input.surface.fits),
+                  number(input.surface.segments), number(input.surface.loose_points), quantity(input.surface.data_to_surface, "m"));
   figure.legend = legend_entry("area", css(kClay), "flat piece") + legend_entry("line", css(kWire), "thin piece (wire, pole, edge)") +
                   legend_entry("dot", css(kLoose), "single point");
   figure.panels.push_back({resolved(raster, {1.0}), {}, "Bird's view of the reconstructed surface, shaded.", {}});
@@ -138,41 +141,42 @@ Image unseen_image(const Raster& surfaces, const Raster& unseen) {
 
 Figure unseen_figure(const ReportInput<3>& input, const Camera& camera) {
   Raster surfaces(camera), unseen(camera);
-  draw_patches(surfaces, input.patches, input.domain, Colours::clay);
+  draw_patches(surfaces, input.patches, {input.domain, height_range(input), Colours::clay});
   draw_unseen(unseen, input.state);
   Figure figure{"unseen", "What stays unseen", {}, {}, {}};
   figure.caption =
       "The border between the space that was seen and the space that was not; it shows through the surfaces. Numbers are those of the table below.";
   figure.legend = legend_entry("area", css(kUnseenColour), "unseen space") + legend_entry("area", css(kClay), "surface");
-  figure.panels.push_back({unseen_image(surfaces, unseen), unseen_overlay(input, camera),
+  figure.panels.push_back({unseen_image(surfaces, unseen),
+                           unseen_overlay(input, camera),
                            fmt::format("Bird's view of the unseen space, {} listed.",
                                        counted(static_cast<std::int64_t>(input.verdict.unseen.size()), "region", "regions")),
                            {}});
   return figure;
 }
 
-/// Height of the plan's cut: that of the median vantage point.
+/// Height of the plan's cut: that of the lowest vantage point, so that it runs through walls even where the scanner flies.
 double plan_height(const ReportInput<3>& input) {
-  std::vector<double> heights;
-  for (const StepRecord<3>& step : input.steps) heights.push_back(step.vantage.z());
-  if (heights.empty()) return kInfinity;
-  std::sort(heights.begin(), heights.end());
-  return heights[heights.size() / 2];
+  double lowest = kInfinity;
+  for (const StepRecord<3>& step : input.steps) lowest = std::min(lowest, step.vantage.z());
+  return lowest;
 }
 
 Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
   const Camera camera = Camera::map(box, map_frame(input.picture_width));
   const double cut = plan_height(input);
   Raster raster(camera);
-  draw_plan(raster, input.patches, input.domain, cut);
+  draw_plan(raster, input.patches, {input.domain, height_range(input), Colours::clay}, {cut, 0.5 * input.state.window.spacing});
   double length = 0.0;
   for (const StepRecord<3>& step : input.steps) length += step.path_length;
   Figure figure{"path", "The path", {}, {}, {}};
-  figure.caption = fmt::format("Plan, cut at a height of {1}, with the vantage points in their order: {0} of path in all.",
-                               quantity(length, "m"), height_text(cut));
+  figure.caption = fmt::format("Plan, cut at a height of {1}, with the vantage points in their order: {0} of path in all.", quantity(length, "m"),
+                               height_text(cut));
   figure.legend = journey_legend() + legend_entry("line", css(kSection), "wall at the cut");
-  figure.panels.push_back({resolved(raster, {0.0}), journey_overlay(input, camera) + scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
-                           "Plan of the place with the numbered vantage points and the path through them.", {}});
+  figure.panels.push_back({resolved(raster, {0.0}),
+                           journey_overlay(input, camera) + scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
+                           "Plan of the place with the numbered vantage points and the path through them.",
+                           {}});
   return figure;
 }
 

@@ -28,7 +28,8 @@ TEST(Png, FewColoursComeBackExactly) {
   Image image(37, 21);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      if ((x + y) % 3 != 0) image.set(x, y, {static_cast<std::uint8_t>(7 * (x % 16)), static_cast<std::uint8_t>(9 * (y % 8)), 77}, x % 2 == 0 ? 255 : 128);
+      if ((x + y) % 3 != 0)
+        image.set(x, y, {static_cast<std::uint8_t>(7 * (x % 16)), static_cast<std::uint8_t>(9 * (y % 8)), 77}, x % 2 == 0 ? 255 : 128);
     }
   }
   EXPECT_EQ(decoded(png(image)).rgba, image.rgba);
@@ -37,7 +38,8 @@ TEST(Png, FewColoursComeBackExactly) {
 TEST(Png, ManyColoursComeBackNearly) {
   Image image(256, 256);
   for (int y = 0; y < 256; ++y) {
-    for (int x = 0; x < 256; ++x) image.set(x, y, {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), static_cast<std::uint8_t>((x + y) / 2)});
+    for (int x = 0; x < 256; ++x)
+      image.set(x, y, {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), static_cast<std::uint8_t>((x + y) / 2)});
   }
   EXPECT_LE(quantised(image).palette.size(), 256U);
   const Image back = decoded(png(image));

@@ -42,8 +42,9 @@ Figure surface_figure(const SurfaceStatistics& surface) {
 
 Figure error_figure(const SurfaceStatistics& surface) {
   const bool kept = surface.certified() <= surface.eta;
-  return {"Certified error", quantity(surface.certified(), "m"),
-          fmt::format("{} the tolerance of {}, points to surface and surface to points", kept ? "within" : "above", rounded(surface.eta) + "\u00a0m")};
+  return {
+      "Certified error", quantity(surface.certified(), "m"),
+      fmt::format("{} the tolerance of {}, points to surface and surface to points", kept ? "within" : "above", rounded(surface.eta, 3) + "\u00a0m")};
 }
 
 template <int Dim>
@@ -57,14 +58,15 @@ std::vector<Figure> key_figures(const ReportInput<Dim>& input) {
           error_figure(input.surface),
           {fmt::format("Seen {}", volume_word<Dim>()), quantity(seen, volume_unit<Dim>()),
            fmt::format("on a lattice of {} nodes, {} apart", number(static_cast<std::int64_t>(input.state.window.size())),
-                       rounded(input.state.window.spacing) + "\u00a0m")}};
+                       rounded(input.state.window.spacing, 3) + "\u00a0m")}};
 }
 
 template <int Dim>
 std::string gauge(const Verdict<Dim>& verdict) {
   const auto share = [](double value) { return 100.0 * std::clamp(value, 0.0, 1.0); };
   return fmt::format(
-      "<div class=\"gauge\" role=\"img\" aria-label=\"Seen share {}\"><i class=\"bounds\" style=\"width:{:.2f}%\"></i><i style=\"width:{:.2f}%\"></i></div>\n",
+      "<div class=\"gauge\" role=\"img\" aria-label=\"Seen share {}\"><i class=\"bounds\" style=\"width:{:.2f}%\"></i><i "
+      "style=\"width:{:.2f}%\"></i></div>\n",
       percent(verdict.seen_fraction), share(verdict.seen_high), share(verdict.seen_low));
 }
 
@@ -84,7 +86,8 @@ std::string left_over(const Verdict<Dim>& verdict) {
     list += fmt::format("{}{}{}{}", list.empty() ? "" : ", ", share, reason == "no reachable view" ? "with " : "", reason);
   }
   const double rest = verdict.unseen_volume - volume;
-  const std::string smaller = rest > 0.01 * volume ? fmt::format(" Smaller ones, not listed, add {}.", quantity(rest, volume_unit<Dim>())) : std::string();
+  const std::string smaller =
+      rest > 0.01 * volume ? fmt::format(" Smaller ones, not listed, add {}.", quantity(rest, volume_unit<Dim>())) : std::string();
   return fmt::format(" {} unseen, {} in all: {}.{}", counted(static_cast<std::int64_t>(verdict.unseen.size()), "region stays", "regions stay"),
                      quantity(volume, volume_unit<Dim>()), list, smaller);
 }
@@ -111,8 +114,8 @@ template <int Dim>
 std::string header_html(const ReportInput<Dim>& input) {
   const Verdict<Dim>& verdict = input.verdict;
   const char* words[] = {"Exploration in the plane", "Exploration in space"};
-  std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", verdict.complete ? "done" : "not-done", words[Dim - 2],
-                                 escaped(input.scene));
+  std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", verdict.complete ? "done" : "not-done",
+                                 words[Dim - 2], escaped(input.scene));
   html += fmt::format("<div class=\"verdict\"><p><b>{}</b> {}</p>\n<div class=\"share\"><strong>{}</strong><span>seen ({})</span></div></div>\n",
                       verdict.complete ? "Complete." : "Not complete.", escaped(verdict_text(input)), percent(verdict.seen_fraction), bounds(input));
   html += gauge(verdict) + "<dl>\n";
