@@ -14,8 +14,8 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kPanels = 9;
-constexpr double kDarkest = 0.16;    ///< Of the colour map, so that small E is told from none.
-constexpr int kSingleReach = 3;      ///< Half a lone node's square [pixels].
+constexpr double kDarkest = 0.16;  ///< Of the colour map, so that small E is told from none.
+constexpr int kSingleReach = 3;    ///< Half a lone node's square [pixels].
 
 float value_at(const Field<2, float>& field, int i, int j) {
   const Index<2> local(i, j);
@@ -100,7 +100,7 @@ Panel metric_panel(const Snapshot<Dim>& snapshot, const Frame& frame) {
   const std::string after = fmt::format("After scan {}{}", snapshot.step, height_text(snapshot));
   if (snapshot.has_next) {
     panel.overlay += cross_overlay(on_map<Dim>({snapshot.next}, camera)[0]);
-    panel.caption = fmt::format("{}: best place {}, E = {}", after, place_text(snapshot.next), number(static_cast<double>(largest(snapshot.metric))));
+    panel.caption = fmt::format("{}: best place {}", after, place_text(snapshot.next));
   } else {
     panel.caption = after + ": nothing left to visit";
   }
@@ -164,9 +164,10 @@ Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const Frame& f
   figure.caption =
       "The visibility metric E on cuts through the place, each scaled to its own maximum: the brighter, the more a scan from there would reveal. "
       "The cross is where the scanner went next.";
-  figure.legend = legend_bar(css_gradient(ColourMap::inferno, kDarkest, 1.0), "E small", "large") + legend_entry("diamond", "", "vantage points so far") +
-                  legend_entry("cross", "", "next") + legend_entry("area", css(kDarkStates.obstacle), "obstacle") +
-                  legend_entry("hatch", css(kDarkStates.unseen), "unseen") + legend_entry("area", css(kDarkStates.seen), "seen, E not asked");
+  figure.legend = legend_bar(css_gradient(ColourMap::inferno, kDarkest, 1.0), "E small", "large") +
+                  legend_entry("diamond", "", "vantage points so far") + legend_entry("cross", "", "next") +
+                  legend_entry("area", css(kDarkStates.obstacle), "obstacle") + legend_entry("hatch", css(kDarkStates.unseen), "unseen") +
+                  legend_entry("area", css(kDarkStates.seen), "seen, E not asked");
   for (const Snapshot<Dim>* snapshot : chosen(snapshots)) {
     if (snapshot->state.window.size() > 0) figure.panels.push_back(metric_panel(*snapshot, frame));
   }

@@ -78,12 +78,12 @@ std::string legend_bar(const std::string& gradient, const std::string& low, cons
 
 std::string journey_legend() { return legend_entry("dot", "", "vantage point with the number of its scan") + legend_entry("line", "", "path"); }
 
-#define VANTAGE_INSTANTIATE(Dim)                                                                    \
-  template Vec<3> in_space<Dim>(const Vec<Dim>&);                                                   \
-  template std::vector<Vec<2>> on_picture<Dim>(std::span<const Vec<Dim>>, const Camera&);           \
-  template std::string journey_overlay(const ReportInput<Dim>&, const Camera&);                     \
-  template std::string unseen_overlay(const ReportInput<Dim>&, const Camera&);                      \
-  template std::size_t point_count(const ReportInput<Dim>&);                                        \
+#define VANTAGE_INSTANTIATE(Dim)                                                          \
+  template Vec<3> in_space<Dim>(const Vec<Dim>&);                                         \
+  template std::vector<Vec<2>> on_picture<Dim>(std::span<const Vec<Dim>>, const Camera&); \
+  template std::string journey_overlay(const ReportInput<Dim>&, const Camera&);           \
+  template std::string unseen_overlay(const ReportInput<Dim>&, const Camera&);            \
+  template std::size_t point_count(const ReportInput<Dim>&);                              \
   template std::size_t point_stride(const ReportInput<Dim>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
