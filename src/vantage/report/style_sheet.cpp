@@ -14,6 +14,7 @@ std::string style_sheet() {
 @media (prefers-color-scheme: dark) {
   #surface img, #unseen img, #path img, #known img { filter: brightness(.8); }
   #points img { filter: brightness(1.3); }
+  #path .stage { background: #6f6e6b; }
   #path .stage, #surface .stage { --mark: #d81b4a; --halo: #ffffff; --ink: #1d2430; }
 }
 * { box-sizing: border-box; }
