@@ -22,7 +22,7 @@ std::array<Vec<3>, 8> corners(const Box<3>& box) {
   return places;
 }
 
-Camera Camera::bird(const Box<3>& box, std::span<const Vec<3>> outline, double azimuth, double elevation, const Frame& frame) {
+Camera Camera::bird(const Box<3>& box, std::span<const Vec<3>> outline, double azimuth, double elevation, const PictureFrame& frame) {
   const auto [sin_a, cos_a] = sin_cos(azimuth);
   const auto [sin_e, cos_e] = sin_cos(elevation);
   Camera camera;
@@ -36,14 +36,14 @@ Camera Camera::bird(const Box<3>& box, std::span<const Vec<3>> outline, double a
   return camera;
 }
 
-Camera Camera::map(const Box<3>& box, const Frame& frame) {
+Camera Camera::map(const Box<3>& box, const PictureFrame& frame) {
   Camera camera;
   camera.eye_ = box.center() + Vec<3>::UnitZ() * (diagonal(box) + 1.0);
   camera.fit(corners(box), frame);
   return camera;
 }
 
-void Camera::fit(std::span<const Vec<3>> outline, const Frame& frame) {
+void Camera::fit(std::span<const Vec<3>> outline, const PictureFrame& frame) {
   Box<2> seen;
   for (const Vec<3>& p : outline) {
     const Projected q = project(p);

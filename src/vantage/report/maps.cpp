@@ -92,7 +92,7 @@ std::string height_text(const Snapshot<Dim>& snapshot) {
 }
 
 template <int Dim>
-Panel metric_panel(const Snapshot<Dim>& snapshot, const Frame& frame) {
+Panel metric_panel(const Snapshot<Dim>& snapshot, const PictureFrame& frame) {
   const Camera camera = Camera::map(map_box(snapshot.state.window), frame);
   Panel panel{state_map(snapshot.state, camera, kDarkStates), {}, {}, {}};
   lay_over(panel.image, metric_map(snapshot.metric, snapshot.state, camera));
@@ -157,7 +157,7 @@ std::vector<const Snapshot<Dim>*> chosen(const std::vector<Snapshot<Dim>>& snaps
 }
 
 template <int Dim>
-Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const Frame& frame) {
+Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const PictureFrame& frame) {
   Figure figure;
   figure.id = "metric";
   figure.title = "Where it pays to look next";
@@ -183,8 +183,8 @@ std::string place_text(const Vec<Dim>& p) {
 
 template std::vector<const Snapshot<2>*> chosen(const std::vector<Snapshot<2>>&);
 template std::vector<const Snapshot<3>*> chosen(const std::vector<Snapshot<3>>&);
-template Figure metric_figure(const std::vector<Snapshot<2>>&, const Frame&);
-template Figure metric_figure(const std::vector<Snapshot<3>>&, const Frame&);
+template Figure metric_figure(const std::vector<Snapshot<2>>&, const PictureFrame&);
+template Figure metric_figure(const std::vector<Snapshot<3>>&, const PictureFrame&);
 template std::string place_text<2>(const Vec<2>&);
 template std::string place_text<3>(const Vec<3>&);
 

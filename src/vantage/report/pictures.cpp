@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "vantage/report/overlay.h"
 
 namespace vantage {
@@ -10,6 +12,7 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kMostPoints = 2'000'000;
+constexpr double kTagGap = 28.0;  ///< Between numbers of unseen regions; of two nearer ones the larger keeps its own [pixels].
 
 }  // namespace
 
@@ -46,11 +49,17 @@ std::string journey_overlay(const ReportInput<Dim>& input, const Camera& camera)
 template <int Dim>
 std::string unseen_overlay(const ReportInput<Dim>& input, const Camera& camera) {
   std::string tags;
-  for (std::size_t i = std::min(kTaggedRegions, input.verdict.unseen.size()); i-- > 0;) {
+  std::vector<Vec<2>> taken;
+  for (std::size_t i = 0; i < std::min(kTaggedRegions, input.verdict.unseen.size()); ++i) {
     const Box<Dim> box = input.verdict.unseen[i].box.intersection(input.domain);
     if (box.empty()) continue;
     const std::vector<Vec<Dim>> centre{box.center()};
-    for (const Vec<2>& pixel : on_picture<Dim>(centre, camera)) tags += tag_overlay(pixel, fmt::format("{}", i + 1));
+    for (const Vec<2>& pixel : on_picture<Dim>(centre, camera)) {
+      const auto near = [&pixel](const Vec<2>& other) { return (other - pixel).norm() < kTagGap; };
+      if (std::any_of(taken.begin(), taken.end(), near)) continue;
+      taken.push_back(pixel);
+      tags += tag_overlay(pixel, fmt::format("{}", i + 1));
+    }
   }
   return tags;
 }

@@ -166,7 +166,9 @@ Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
   const Camera camera = Camera::map(box, map_frame(input.picture_width));
   const double cut = plan_height(input);
   Raster raster(camera);
-  draw_plan(raster, input.patches, {input.domain, height_range(input), Colours::clay}, {cut, 0.5 * input.state.window.spacing});
+  // Even at the floor, single points are as light as the flat pieces around them.
+  const double floor = height_range(input).first;
+  draw_plan(raster, input.patches, {input.domain, {floor - 1.0, floor}, Colours::clay}, {cut, 0.5 * input.state.window.spacing});
   double length = 0.0;
   for (const StepRecord<3>& step : input.steps) length += step.path_length;
   Figure figure{"path", "The path", {}, {}, {}};

@@ -22,7 +22,7 @@ Rgb lit_clay(const Patch<3>& patch, const Camera& camera) {
 
 /// Colour of a single point or a thin piece at a height.
 Rgb mark_colour(const Patch<3>& patch, const ModelView& view) {
-  const Rgb kinds[] = {kLoose, kWire}, clays[] = {scaled(kClay, 0.92), scaled(kClay, 0.86)};
+  const Rgb kinds[] = {kLoose, kWire}, clays[] = {scaled(kClay, 0.86), scaled(kClay, 0.8)};
   const Rgb colour = (view.colours == Colours::by_kind ? kinds : clays)[patch.rank()];
   const auto [low, high] = view.heights;
   return scaled(colour, 0.78 + 0.37 * std::clamp((patch.corners()[0].z() - low) / std::max(high - low, 1e-9), 0.0, 1.0));

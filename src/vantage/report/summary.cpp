@@ -11,7 +11,7 @@ namespace vantage {
 
 namespace {
 
-struct Figure {
+struct KeyFigure {
   std::string name, value, note;
 };
 
@@ -34,13 +34,13 @@ std::string bounds(const ReportInput<Dim>& input) {
 }
 
 template <int Dim>
-Figure surface_figure(const SurfaceStatistics& surface) {
+KeyFigure surface_figure(const SurfaceStatistics& surface) {
   const std::string names[] = {"Segments", "Flat pieces"};
   const std::string thin[] = {"", counted(surface.segments, "thin piece", "thin pieces") + ", "};
   return {names[Dim - 2], number(surface.fits), "and " + thin[Dim - 2] + counted(surface.loose_points, "single point", "single points")};
 }
 
-Figure error_figure(const SurfaceStatistics& surface) {
+KeyFigure error_figure(const SurfaceStatistics& surface) {
   const bool kept = surface.certified() <= surface.eta;
   return {
       "Certified error", quantity(surface.certified(), "m"),
@@ -48,7 +48,7 @@ Figure error_figure(const SurfaceStatistics& surface) {
 }
 
 template <int Dim>
-std::vector<Figure> key_figures(const ReportInput<Dim>& input) {
+std::vector<KeyFigure> key_figures(const ReportInput<Dim>& input) {
   std::int64_t points = 0;
   for (const auto& scan : input.scan_points) points += static_cast<std::int64_t>(scan.size());
   const double seen = input.steps.empty() ? 0.0 : input.steps.back().seen_volume;
@@ -119,7 +119,7 @@ std::string header_html(const ReportInput<Dim>& input) {
   html += fmt::format("<div class=\"verdict\"><p><b>{}</b> {}</p>\n<div class=\"share\"><strong>{}</strong><span>seen ({})</span></div></div>\n",
                       verdict.complete ? "Complete." : "Not complete.", escaped(verdict_text(input)), percent(verdict.seen_fraction), bounds(input));
   html += gauge(verdict) + "<dl>\n";
-  for (const Figure& figure : key_figures(input)) {
+  for (const KeyFigure& figure : key_figures(input)) {
     html += fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", escaped(figure.name), escaped(figure.value), escaped(figure.note));
   }
   return html + "</dl>\n</header>\n";
