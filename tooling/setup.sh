@@ -101,7 +101,7 @@ build_preset() {
   say "builds $preset"
   if ! (cd "$root" && NINJA_STATUS='[%f/%t] ' run_logged "$preset-build.log" 's/^\(\[[0-9/]*\]\) .*\/\([^/]*\)$/\1 \2/p' cmake --build --preset "$preset"); then
     # Ninja prints the failing step's output after FAILED.
-    sed -n '/^FAILED/,$p' "$logs/$preset-build.log" | grep -v '^\[[0-9]' | grep -v '^/[^ ]*c++ ' | head -n 40 >&2
+    sed -n '/^FAILED/,$p' "$logs/$preset-build.log" | grep -v '^\[[0-9]' | grep -v '^/[^ ]* .* -c /' | head -n 40 >&2
     say "the build failed: build/logs/$preset-build.log"
     return 1
   fi

@@ -2,10 +2,11 @@
 """Runs from the command line: the files and their formats, resumption to the same bytes, stopping, taking scans out."""
 
 import json
+import os
+import pty
 import signal
 import struct
 import subprocess
-import time
 import xml.etree.ElementTree
 import zlib
 
@@ -298,3 +299,37 @@ def test_default_folder_has_the_scene_name(vantage, tmp_path):
     assert vantage("explore", "planar:seed=3", "--max-scans", 1, "-q", cwd=tmp_path).returncode == 0
     assert (tmp_path / "runs/planar/report.html").exists()
     assert vantage("explore", "planar:seed=3", "--max-scans", 2, "-q", "--resume", cwd=tmp_path).returncode == 0
+
+
+def test_no_plan_is_told_apart(vantage, tmp_path):
+    """Unseen space remains and the run gives up: exit code 6, the reason in one line, the outputs saved all the same."""
+    result = vantage("explore", "planar", "--set", "planner.idle_limit=1", "-o", tmp_path / "run", "--json", "-q")
+    verdict = json.loads(result.stdout)["verdict"]
+    assert result.returncode == 6 and verdict["complete"] is False
+    assert result.stderr == f"vantage: {verdict['reason']}\n"
+    assert (tmp_path / "run/report.html").exists()
+
+
+@pytest.mark.parametrize("no_color", [False, True])
+def test_live_line_on_a_terminal(vantage, tmp_path, no_color):
+    program = vantage("--version").args[0]
+    screen, terminal = pty.openpty()
+    environment = {**os.environ, "TERM": "xterm", "NO_COLOR": "1" if no_color else ""}
+    with subprocess.Popen([program, "explore", *SCENES["3d"], "-o", tmp_path / "run"], stdout=subprocess.PIPE, stderr=terminal, text=True, env=environment) as process:
+        os.close(terminal)
+        shown = b""
+        while True:
+            try:
+                part = os.read(screen, 65536)
+            except OSError:  # The other end is closed.
+                break
+            if not part:
+                break
+            shown += part
+        out = process.stdout.read()
+    os.close(screen)
+    text = shown.decode()
+    assert process.returncode in (0, 6) and out.splitlines()[-1].startswith("report: ")
+    assert "% seen" in text and "█" in text and "\n" not in text.replace("vantage: ", "").strip("\r\n")
+    assert ("\033[36m" in text) != no_color
+    assert text.rstrip().endswith("\033[K")  # The line is gone in the end.

@@ -186,12 +186,12 @@ Field<Dim> distance_to_set(const Field<Dim, std::uint8_t>& set, double cap) {
 template <int Dim>
   requires SpatialDim<Dim>
 Field<Dim> distance_to_patches(std::span<const Patch<Dim>> patches, const Grid<Dim>& window, double cap) {
-  const double diagonal = std::sqrt(static_cast<double>(Dim)) * window.spacing;
-  Band<Dim> band = near_band(patches, window, std::min(diagonal, cap));
+  const double reach = 0.5 * (1.0 + 1e-9) * std::sqrt(static_cast<double>(Dim)) * window.spacing;
+  Band<Dim> band = near_band(patches, window, std::min(reach, cap));
   const auto limit = static_cast<float>(cap);
-  if (cap > diagonal) {
+  if (cap > reach) {
     Field<Dim, std::uint8_t> set(window);
-    for (std::size_t i = 0; i < set.values.size(); ++i) set[i] = band.distance[i] <= static_cast<float>(diagonal);
+    for (std::size_t i = 0; i < set.values.size(); ++i) set[i] = band.distance[i] <= static_cast<float>(reach);
     const Field<Dim, std::int32_t> site = nearest_sites(set);
     parallel_for(site.values.size(), 1 << 12, [&](std::size_t i) {
       if (set[i] != 0 || site[i] == kNoSite) return;

@@ -78,7 +78,7 @@ TYPED_TEST(Distance, ToPatchesIsExactNearThemAndErrsUpwardsByLessThanADiagonal) 
   for (std::size_t i = 0; i < d.values.size(); ++i) {
     double nearest = kInfinity;
     for (const auto& patch : patches) nearest = std::min(nearest, distance(patch, window.position(i)));
-    if (nearest < diagonal) {
+    if (nearest < 0.5 * diagonal) {
       ASSERT_FLOAT_EQ(d[i], static_cast<float>(nearest));
     }
     ASSERT_GE(d[i], static_cast<float>(nearest) - 1e-6F);

@@ -38,6 +38,7 @@ struct Ply {
 
 /// Header and the columns for which `wanted(element, property)` holds. Every size is checked against the bytes there before memory is taken.
 /// Throws bad_input naming `where:offset` (binary) or `where:line` (ascii).
-[[nodiscard]] Ply parse_ply_columns(std::string_view bytes, std::string_view where, const std::function<bool(std::string_view, std::string_view)>& wanted);
+[[nodiscard]] Ply parse_ply_columns(std::string_view bytes, std::string_view where,
+                                    const std::function<bool(std::string_view, std::string_view)>& wanted);
 
 }  // namespace vantage

@@ -16,7 +16,7 @@ struct Components {
     double nodes = 0.0;
     double deepest = 0.0;               // Largest -psi [m].
     Index<Dim> low, high;               // Inclusive.
-    double open = 0.0, open_most = 0.0, open_least = 0.0;  // Sums of face probabilities.
+    double open = 0.0, open_most = 0.0, open_least = 0.0;  // What its faces may open [m^Dim].
     bool has_face = false, reachable = false;
   };
   std::vector<Part> parts;
@@ -53,6 +53,17 @@ struct Components {
   }
 };
 
+/// Length of the unseen straight behind a face, at most `limit` [m].
+template <int Dim>
+double depth_behind(const BeliefView<Dim>& view, const BoundaryFace<Dim>& face, double limit) {
+  const Grid<Dim>& grid = view.window();
+  const int axis = face.direction / 2, inward = face.direction % 2 == 0 ? 1 : -1;
+  double depth = 0.0;
+  for (Index<Dim> node = grid.local(face.unseen); grid.inside(node) && view.state.at(node) == NodeState::unseen && depth < limit; node[axis] += inward)
+    depth += grid.spacing;
+  return std::min(depth, limit);
+}
+
 template <int Dim>
 double cell_measure(double h, int power) {
   double value = 1.0;
@@ -68,30 +79,30 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   const Grid<Dim>& grid = view.window();
   const double h = grid.spacing, cell = cell_measure<Dim>(h, Dim), face_area = cell_measure<Dim>(h, Dim - 1);
   Components<Dim> components(view);
+  // Behind a face that opens one sees as deep as it goes, or a mean free path.
+  const double free_path = opacity > 0.0 ? 1.0 / opacity : kInfinity;
   for (const BoundaryFace<Dim>& face : faces) {
     auto& part = components.parts[static_cast<std::size_t>(components.label[face.unseen])];
+    const double behind = face_area * depth_behind(view, face, free_path);
     part.has_face = true;
     part.reachable = part.reachable || reachable[face.seen] != 0;
-    part.open += face.probability;
-    part.open_most += std::min(1.0, 2.0 * face.probability);
-    part.open_least += face.probability >= 0.5 ? face.probability : 0.0;
+    part.open += behind * face.probability;
+    part.open_most += behind * std::min(1.0, 2.0 * face.probability);
+    part.open_least += face.probability >= 0.5 ? behind * face.probability : 0.0;
   }
 
-  // Behind an opening of area a one sees a mean free path deep: a / opacity, but no more than there is.
-  const double depth = opacity > 0.0 ? 1.0 / opacity : kInfinity;
   double open = 0.0, open_most = 0.0, open_least = 0.0;
   Verdict<Dim> verdict;
   for (const auto& part : components.parts) {
     const double volume = part.nodes * cell;
-    const auto behind = [&](double sum) { return sum > 0.0 ? std::min(volume, sum * face_area * depth) : 0.0; };
-    open += behind(part.open);
-    open_most += behind(part.open_most);
-    open_least += behind(part.open_least);
+    open += std::min(volume, part.open);
+    open_most += std::min(volume, part.open_most);
+    open_least += std::min(volume, part.open_least);
     verdict.unseen_volume += volume;
     if (volume < least_volume) continue;
     UnseenRegion<Dim> region;
     region.volume = volume;
-    region.may_open = behind(part.open);
+    region.may_open = std::min(volume, part.open);
     region.box = {grid.position(part.low).array() - 0.5 * h, grid.position(part.high).array() + 0.5 * h};
     if (!part.has_face) region.reason = "enclosed";
     else if (part.deepest < h) region.reason = "too fine for the lattice";

@@ -60,8 +60,8 @@ std::string station_overlay(std::span<const Vec<2>> places, std::span<const int>
     const std::string at = fmt::format("cx=\"{:.1f}\" cy=\"{:.1f}\"", places[i].x(), places[i].y());
     dots += fmt::format("<circle class=\"dot\" {} r=\"5\"/>", at);
     if (!pinned[i]) continue;
-    pins += fmt::format("<g class=\"pin{}{}\"><circle {} r=\"12\"/><text x=\"{:.1f}\" y=\"{:.1f}\" dy=\".35em\">{}</text></g>", major[i] ? " major" : "",
-                        i == 0 ? " first" : "", at, places[i].x(), places[i].y(), numbers[i]);
+    pins += fmt::format("<g class=\"pin{}{}\"><circle {} r=\"12\"/><text x=\"{:.1f}\" y=\"{:.1f}\" dy=\".35em\">{}</text></g>",
+                        major[i] ? " major" : "", i == 0 ? " first" : "", at, places[i].x(), places[i].y(), numbers[i]);
   }
   return dots + pins;
 }

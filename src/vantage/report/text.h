@@ -12,8 +12,8 @@ namespace vantage {
 /// The number with about three significant digits and thin spaces between thousands: `1 234`, `12.3`, `0.0981`.
 [[nodiscard]] std::string number(double value);
 [[nodiscard]] std::string number(std::int64_t value);
-/// A round number without needless zeros: `20`, `0.5`.
-[[nodiscard]] std::string rounded(double value);
+/// A round number without needless zeros, to so many significant digits: `20`, `0.5`.
+[[nodiscard]] std::string rounded(double value, int digits = 12);
 /// A number and its unit, kept on one line; an infinite value is the sign, one that is not a number a dash.
 [[nodiscard]] std::string quantity(double value, std::string_view unit);
 /// A share in percent, rounded down (100 % is said of 1 alone), or up for an upper bound.

@@ -120,12 +120,23 @@ std::uint32_t mesh_checksum(const Mesh<Dim>& mesh) {
   return sum;
 }
 
+/// The scene without the folders of its files.
+std::string short_name(const std::string& scene) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= scene.size();) {
+    const std::size_t end = std::min(scene.find('+', begin), scene.size());
+    const fs::path part = scene.substr(begin, end - begin);
+    out += (begin > 0 ? "+" : "") + (part.is_absolute() ? part.filename().string() : part.string());
+    begin = end + 1;
+  }
+  return out;
+}
+
 template <int Dim>
 void save_report(Folder& folder, const RunOutputs<Dim>& run, std::vector<std::vector<Vec<Dim>>> scan_points, std::vector<Patch<Dim>> patches,
                  Field<Dim, NodeState> state) {
-  const std::string spec = fs::path(run.scenario.scene).is_absolute() ? fs::path(run.scenario.scene).filename().string() : run.scenario.scene;
   const ReportInput<Dim> input{.scene = run.scene.name,
-                               .command = "vantage explore " + spec,
+                               .command = "vantage explore " + short_name(run.scenario.scene),
                                .settings = settings_table(run.scenario),
                                .domain = run.scene.domain,
                                .scan_points = std::move(scan_points),

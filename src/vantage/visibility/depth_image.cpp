@@ -151,38 +151,51 @@ void draw_ranges(DepthImage<Dim>& image, const Scan<Dim>& scan) {
 
 template <int Dim>
 void draw_patches(DepthImage<Dim>& image, std::span<const Patch<Dim>> patches, const Vec<Dim>& origin, double margin, double cone_angle) {
-  // Half the opening as a slope; tan by the series of the sine and cosine above.
   const auto [s, c] = sin_cos(0.5 * cone_angle);
   const double slope = s / c;
-  std::vector<Occluder<Dim>> occluders;
-  occluders.reserve(patches.size());
-  for (const Patch<Dim>& patch : patches) occluders.emplace_back(patch, origin);
-  const auto widening = [&](double range) { return margin + range * slope; };
-
-  // Bands of rows, each owned by one task: a minimum needs no order.
+  const auto widening = [=](double range) { return margin + range * slope; };
+  // Each face of the cube is cut into bands of rows, each drawn by one task: a minimum needs no order.
   constexpr int kBands = 16;
   const int rows = image.resolution();
-  parallel_for(static_cast<std::size_t>(2 * Dim * kBands), 1, [&](std::size_t task) {
+  const auto area_of = [&](const Patch<Dim>& patch, int face) {
+    Box<Dim> box = patch.bounds();
+    box.low -= origin;
+    box.high -= origin;
+    return image.rectangle(face, box.grown(widening(box.center().norm() + 0.5 * box.size().norm())));
+  };
+  const auto draw = [&](const Occluder<Dim>& occluder, int face, const typename DepthImage<Dim>::Rectangle& area) {
+    image.for_pixels(face, area, [&](std::size_t pixel) {
+      const Vec<Dim> direction = image.direction(pixel);
+      const double range = occluder.range(direction, widening(std::max(0.0, occluder.center.dot(direction))));
+      if (range < static_cast<double>(image[pixel])) image[pixel] = static_cast<float>(range);
+    });
+  };
+
+  using Lists = std::vector<std::vector<std::uint32_t>>;  // Patches that may show in each band.
+  const Lists empty(static_cast<std::size_t>(2 * Dim * kBands));
+  const Lists lists = parallel_reduce(
+      patches.size(), std::size_t{1} << 13, empty,
+      [&](std::size_t begin, std::size_t end) {
+        Lists part = empty;
+        for (std::size_t i = begin; i < end; ++i)
+          for (int face = 0; face < 2 * Dim; ++face) {
+            const auto area = area_of(patches[i], face);
+            if (area.empty()) continue;
+            for (int band = area.low[0] * kBands / rows; band * rows / kBands < area.high[0] && band < kBands; ++band)
+              part[static_cast<std::size_t>(face * kBands + band)].push_back(static_cast<std::uint32_t>(i));
+          }
+        return part;
+      },
+      [](Lists& all, const Lists& part) {
+        for (std::size_t t = 0; t < all.size(); ++t) all[t].insert(all[t].end(), part[t].begin(), part[t].end());
+      });
+  parallel_for(lists.size(), 1, [&](std::size_t task) {
     const int face = static_cast<int>(task) / kBands, band = static_cast<int>(task) % kBands;
-    const int first = rows * band / kBands, last = rows * (band + 1) / kBands;
-    for (const Occluder<Dim>& occluder : occluders) {
-      Box<Dim> box = occluder.patch.bounds();
-      box = box.grown(widening(occluder.center.norm() + occluder.radius));
-      auto area = image.rectangle(face, box);
-      area.low[0] = std::max(area.low[0], first);
-      area.high[0] = std::min(area.high[0], last);
-      if (area.empty()) continue;
-      const auto row_length = static_cast<std::size_t>(image.pixels_per_face()) / static_cast<std::size_t>(rows);
-      // Axis 0 of the face is its rows; the other, where there is one, runs along a row.
-      const int from = (Dim - 2) * area.low[Dim - 2], to = 1 + (Dim - 2) * (area.high[Dim - 2] - 1);
-      for (int row = area.low[0]; row < area.high[0]; ++row)
-        for (int column = from; column < to; ++column) {
-          const std::size_t p = static_cast<std::size_t>(face) * image.pixels_per_face() + static_cast<std::size_t>(row) * row_length + static_cast<std::size_t>(column);
-          const Vec<Dim> direction = image.direction(p);
-          const double reach = std::max(0.0, occluder.center.dot(direction));
-          const double range = occluder.range(direction, widening(reach));
-          if (range < static_cast<double>(image[p])) image[p] = static_cast<float>(range);
-        }
+    for (const std::uint32_t i : lists[task]) {
+      auto area = area_of(patches[i], face);
+      area.low[0] = std::max(area.low[0], rows * band / kBands);
+      area.high[0] = std::min(area.high[0], rows * (band + 1) / kBands);
+      if (!area.empty()) draw(Occluder<Dim>(patches[i], origin), face, area);
     }
   });
 }

@@ -32,6 +32,22 @@ class DepthImage {
   };
   /// Pixels of `face` (0 .. 2 Dim - 1) whose directions can meet `box`, given relative to the viewpoint.
   [[nodiscard]] Rectangle rectangle(int face, const Box<Dim>& box) const;
+  /// Calls f(pixel) for the pixels of `area` on `face`, the last axis fastest.
+  template <class F>
+  void for_pixels(int face, const Rectangle& area, F&& f) const {
+    Eigen::Matrix<int, Dim - 1, 1> at = area.low;
+    while (!area.empty()) {
+      auto pixel = static_cast<std::size_t>(face);
+      for (int k = 0; k < Dim - 1; ++k) pixel = pixel * static_cast<std::size_t>(resolution_) + static_cast<std::size_t>(at[k]);
+      f(pixel);
+      int k = Dim - 2;
+      while (k >= 0 && ++at[k] == area.high[k]) {
+        at[k] = area.low[k];
+        --k;
+      }
+      if (k < 0) return;
+    }
+  }
   [[nodiscard]] std::size_t pixels_per_face() const { return ranges_.size() / (2 * Dim); }
 
  private:
