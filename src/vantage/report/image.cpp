@@ -36,7 +36,7 @@ constexpr std::array<Rgb, 11> kInferno{{{0, 0, 4},
                                         {246, 215, 70},
                                         {252, 255, 164}}};
 
-std::uint8_t channel(double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5); }
+std::uint8_t channel(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
 
 }  // namespace
 

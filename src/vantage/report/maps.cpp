@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "vantage/base/parallel.h"
@@ -87,7 +88,7 @@ std::vector<Vec<2>> on_map(const std::vector<Vec<Dim>>& places, const Camera& ca
 
 template <int Dim>
 std::string height_text(const Snapshot<Dim>& snapshot) {
-  const std::string texts[] = {"", fmt::format(", cut at {:.1f}\u00a0m", snapshot.height)};
+  const std::array<std::string, 2> texts{"", fmt::format(", cut at {:.1f}\u00a0m", snapshot.height)};
   return texts[Dim - 2];
 }
 
@@ -152,6 +153,7 @@ template <int Dim>
 std::vector<const Snapshot<Dim>*> chosen(const std::vector<Snapshot<Dim>>& snapshots) {
   std::vector<const Snapshot<Dim>*> picked;
   const std::size_t count = std::min(kPanels, snapshots.size());
+  picked.reserve(count);
   for (std::size_t k = 0; k < count; ++k) picked.push_back(&snapshots[count == 1 ? 0 : k * (snapshots.size() - 1) / (count - 1)]);
   return picked;
 }

@@ -78,11 +78,11 @@ std::size_t point_stride(const ReportInput<Dim>& input) {
 
 std::string legend_entry(const std::string& kind, const std::string& colour, const std::string& text) {
   const std::string style = colour.empty() ? std::string() : fmt::format(" style=\"--c:{}\"", colour);
-  return fmt::format("<span class=\"key\"><i class=\"{}\"{}></i>{}</span>", kind, style, text);
+  return fmt::format(R"(<span class="key"><i class="{}"{}></i>{}</span>)", kind, style, text);
 }
 
 std::string legend_bar(const std::string& gradient, const std::string& low, const std::string& high) {
-  return fmt::format("<span class=\"key\">{}<i class=\"bar\" style=\"background:{}\"></i>{}</span>", low, gradient, high);
+  return fmt::format(R"(<span class="key">{}<i class="bar" style="background:{}"></i>{}</span>)", low, gradient, high);
 }
 
 std::string journey_legend() { return legend_entry("dot", "", "vantage point with the number of its scan") + legend_entry("line", "", "path"); }

@@ -77,7 +77,7 @@ std::pair<double, double> height_range(const ReportInput<3>& input) {
     }
   }
   if (heights.empty()) return {input.domain.low.z(), input.domain.high.z()};
-  std::sort(heights.begin(), heights.end());
+  std::ranges::sort(heights);
   const double low = heights[heights.size() / 100], high = heights[heights.size() - 1 - heights.size() / 100];
   return {low, std::max(high, low + 1e-3)};
 }

@@ -84,7 +84,7 @@ std::size_t cut(std::vector<Bin>& bins, const Cell& cell) {
 std::vector<Cell> median_cut(std::vector<Bin>& bins) {
   std::vector<Cell> cells{measured(bins, 0, bins.size())};
   while (cells.size() < kColours) {
-    const auto most = std::max_element(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.weight < b.weight; });
+    const auto most = std::ranges::max_element(cells, [](const Cell& a, const Cell& b) { return a.weight < b.weight; });
     if (most->weight == 0) break;
     const Cell whole = *most;
     const std::size_t middle = cut(bins, whole);

@@ -2,6 +2,7 @@
 #include "vantage/report/solids.h"
 
 #include <algorithm>
+#include <array>
 
 #include "vantage/base/parallel.h"
 
@@ -22,8 +23,8 @@ Rgb lit_clay(const Patch<3>& patch, const Camera& camera) {
 
 /// Colour of a single point or a thin piece at a height.
 Rgb mark_colour(const Patch<3>& patch, const ModelView& view) {
-  const Rgb kinds[] = {kLoose, kWire}, clays[] = {scaled(kClay, 0.86), scaled(kClay, 0.8)};
-  const Rgb colour = (view.colours == Colours::by_kind ? kinds : clays)[patch.rank()];
+  const std::array<Rgb, 2> kinds{kLoose, kWire}, clays{scaled(kClay, 0.86), scaled(kClay, 0.8)};
+  const Rgb colour = (view.colours == Colours::by_kind ? kinds : clays)[static_cast<std::size_t>(patch.rank())];
   const auto [low, high] = view.heights;
   return scaled(colour, 0.78 + 0.37 * std::clamp((patch.corners()[0].z() - low) / std::max(high - low, 1e-9), 0.0, 1.0));
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "vantage/report/sections.h"
@@ -35,8 +36,8 @@ std::string bounds(const ReportInput<Dim>& input) {
 
 template <int Dim>
 KeyFigure surface_figure(const SurfaceStatistics& surface) {
-  const std::string names[] = {"Segments", "Flat pieces"};
-  const std::string thin[] = {"", counted(surface.segments, "thin piece", "thin pieces") + ", "};
+  const std::array<std::string, 2> names{"Segments", "Flat pieces"};
+  const std::array<std::string, 2> thin{"", counted(surface.segments, "thin piece", "thin pieces") + ", "};
   return {names[Dim - 2], number(surface.fits), "and " + thin[Dim - 2] + counted(surface.loose_points, "single point", "single points")};
 }
 
@@ -113,7 +114,7 @@ std::string verdict_text(const ReportInput<Dim>& input) {
 template <int Dim>
 std::string header_html(const ReportInput<Dim>& input) {
   const Verdict<Dim>& verdict = input.verdict;
-  const char* words[] = {"Exploration in the plane", "Exploration in space"};
+  constexpr std::array<const char*, 2> words{"Exploration in the plane", "Exploration in space"};
   std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", verdict.complete ? "done" : "not-done",
                                  words[Dim - 2], escaped(input.scene));
   html += fmt::format("<div class=\"verdict\"><p><b>{}</b> {}</p>\n<div class=\"share\"><strong>{}</strong><span>seen ({})</span></div></div>\n",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -24,12 +25,12 @@ namespace vantage {
 /// Unit of the seen volume: an area in 2D.
 template <int Dim>
 [[nodiscard]] constexpr std::string_view volume_unit() {
-  constexpr std::string_view units[] = {"m²", "m³"};
+  constexpr std::array<std::string_view, 2> units{"m²", "m³"};
   return units[Dim - 2];
 }
 template <int Dim>
 [[nodiscard]] constexpr std::string_view volume_word() {
-  constexpr std::string_view words[] = {"area", "volume"};
+  constexpr std::array<std::string_view, 2> words{"area", "volume"};
   return words[Dim - 2];
 }
 
