@@ -8,12 +8,12 @@ namespace vantage {
 
 /// Why a call failed; the value is the exit code of the command line.
 enum class ErrorCode : int {
-  bad_input = 2,    ///< Wrong option or malformed file.
-  io = 3,           ///< A file cannot be read or written.
-  memory = 4,       ///< The request does not fit into memory.
-  limit = 5,        ///< A limit or the time is used up.
-  no_plan = 6,      ///< Unseen space remains and no plan reaches it.
-  interrupted = 130,///< Stopped by the user; what was done is saved.
+  bad_input = 2,      ///< Wrong option or malformed file.
+  io = 3,             ///< A file cannot be read or written.
+  memory = 4,         ///< The request does not fit into memory.
+  limit = 5,          ///< A limit or the time is used up.
+  no_plan = 6,        ///< Unseen space remains and no plan reaches it.
+  interrupted = 130,  ///< Stopped by the user; what was done is saved.
 };
 
 /// The one exception of the library: the caller's mistake or a bad file, never our own bug (those are assertions).

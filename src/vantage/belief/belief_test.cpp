@@ -42,7 +42,9 @@ TYPED_TEST(BeliefTest, KnowsThreeStates) {
   EXPECT_DOUBLE_EQ(belief.obstacle_distance(), wall);
   for (std::size_t i = 0; i < view.state.values.size(); ++i) {
     const Vec<Dim> p = view.window().position(i);
-    const NodeState truth = std::abs(p[0] - 7.0) <= wall ? NodeState::obstacle : (p - Vec<Dim>::Constant(5.0)).norm() < 3.0 ? NodeState::seen : NodeState::unseen;
+    const NodeState truth = std::abs(p[0] - 7.0) <= wall                 ? NodeState::obstacle
+                            : (p - Vec<Dim>::Constant(5.0)).norm() < 3.0 ? NodeState::seen
+                                                                         : NodeState::unseen;
     ASSERT_EQ(view.state[i], truth);
     ASSERT_EQ(view.psi[i] > 0.0F, truth == NodeState::seen);
   }

@@ -80,7 +80,8 @@ struct Explorer<Dim>::Impl {
     double nodes = 1.0;
     for (int a = 0; a < Dim; ++a) nodes *= std::max(1.0, domain.size()[a] / options.voxel);
     require_memory(nodes, 60.0, fmt::format("explore.voxel = {} m: the lattice of {:.3g} nodes", options.voxel, nodes));
-    if (nodes > 2.0e9) throw Error(ErrorCode::memory, fmt::format("explore.voxel = {} m: the lattice of {:.3g} nodes exceeds 2e9", options.voxel, nodes));
+    if (nodes > 2.0e9)
+      throw Error(ErrorCode::memory, fmt::format("explore.voxel = {} m: the lattice of {:.3g} nodes exceeds 2e9", options.voxel, nodes));
     return window_over(domain, options.voxel);
   }
 
@@ -91,7 +92,14 @@ struct Explorer<Dim>::Impl {
   }
 
   Impl(Sensor<Dim>& s, const Box<Dim>& d, const Vec<Dim>& start, const ExploreOptions& o, Observer* watcher)
-      : sensor(s), observer(watcher), options(o), domain(d), window(lattice(d, start, o)), surface(d, o.surface), belief(window, o.surface.eta), vantage_point(start) {
+      : sensor(s),
+        observer(watcher),
+        options(o),
+        domain(d),
+        window(lattice(d, start, o)),
+        surface(d, o.surface),
+        belief(window, o.surface.eta),
+        vantage_point(start) {
     check_options(options.visibility, "visibility");
     check_options(options.planner, "planner");
   }
@@ -152,10 +160,14 @@ struct Explorer<Dim>::Impl {
     verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete;
     switch (decision.end) {
       case End::nothing_can_open: verdict.reason = "No reachable place shows anything new."; break;
-      case End::below_threshold: verdict.reason = fmt::format("The best place would show less than {:g} of the seen volume, twice in a row.", options.planner.stop_volume); break;
+      case End::below_threshold:
+        verdict.reason = fmt::format("The best place would show less than {:g} of the seen volume, twice in a row.", options.planner.stop_volume);
+        break;
       case End::idle: verdict.reason = fmt::format("{} scans in a row showed nothing new.", options.planner.idle_limit); break;
       case End::unreachable: verdict.reason = "Unseen space remains, but no place to scan from can be reached with the clearance asked for."; break;
-      case End::none: verdict.reason = finished ? fmt::format("The limit of {} scans is reached.", options.max_scans) : "The exploration is not finished."; break;
+      case End::none:
+        verdict.reason = finished ? fmt::format("The limit of {} scans is reached.", options.max_scans) : "The exploration is not finished.";
+        break;
     }
   }
 

@@ -43,14 +43,14 @@ class Explorer {
   /// Why it ended, or how it stands.
   [[nodiscard]] Verdict<Dim> verdict() const;
 
-  [[nodiscard]] const Grid<Dim>& window() const;                            ///< Over the whole domain.
+  [[nodiscard]] const Grid<Dim>& window() const;  ///< Over the whole domain.
   [[nodiscard]] const std::vector<StepRecord<Dim>>& steps() const;
   [[nodiscard]] const std::vector<Snapshot<Dim>>& snapshots() const;
-  [[nodiscard]] const std::vector<Vec<Dim>>& path() const;                  ///< Polyline through the vantage points so far and to the next.
+  [[nodiscard]] const std::vector<Vec<Dim>>& path() const;  ///< Polyline through the vantage points so far and to the next.
   [[nodiscard]] const HausdorffTree<Dim>& surface() const;
-  [[nodiscard]] Field<Dim, NodeState> states() const;                       ///< Over the whole domain.
-  [[nodiscard]] Field<Dim> psi() const;                                     ///< Signed distance to the shadow boundary, > 0 where seen [m].
-  [[nodiscard]] Field<Dim> metric() const;                                  ///< E of the last step's candidates at their nodes, NaN elsewhere.
+  [[nodiscard]] Field<Dim, NodeState> states() const;  ///< Over the whole domain.
+  [[nodiscard]] Field<Dim> psi() const;                ///< Signed distance to the shadow boundary, > 0 where seen [m].
+  [[nodiscard]] Field<Dim> metric() const;             ///< E of the last step's candidates at their nodes, NaN elsewhere.
 
  private:
   struct Impl;

@@ -203,9 +203,9 @@ Field<Dim> distance_to_patches(std::span<const Patch<Dim>> patches, const Grid<D
   return std::move(band.distance);
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                              \
-  template Field<D, std::int32_t> nearest_sites<D>(const Field<D, std::uint8_t>&);          \
-  template Field<D> distance_to_set<D>(const Field<D, std::uint8_t>&, double);              \
+#define VANTAGE_INSTANTIATE(D)                                                     \
+  template Field<D, std::int32_t> nearest_sites<D>(const Field<D, std::uint8_t>&); \
+  template Field<D> distance_to_set<D>(const Field<D, std::uint8_t>&, double);     \
   template Field<D> distance_to_patches<D>(std::span<const Patch<D>>, const Grid<D>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -22,10 +22,11 @@ template <int Dim>
   requires SpatialDim<Dim>
 [[nodiscard]] Field<Dim> distance_to_set(const Field<Dim, std::uint8_t>& set, double cap = std::numeric_limits<float>::max());
 
-/// Distance from every node to the nearest patch, at most `cap` [m]. Exact for nodes within half a cell diagonal of a patch, and every place on a patch has
-/// such a node; beyond, exact to the patch that is nearest to the nearest of them, which errs upwards by less than one diagonal.
+/// Distance from every node to the nearest patch, at most `cap` [m]. Exact for nodes within half a cell diagonal of a patch, and every place on a
+/// patch has such a node; beyond, exact to the patch that is nearest to the nearest of them, which errs upwards by less than one diagonal.
 template <int Dim>
   requires SpatialDim<Dim>
-[[nodiscard]] Field<Dim> distance_to_patches(std::span<const Patch<Dim>> patches, const Grid<Dim>& window, double cap = std::numeric_limits<float>::max());
+[[nodiscard]] Field<Dim> distance_to_patches(std::span<const Patch<Dim>> patches, const Grid<Dim>& window,
+                                             double cap = std::numeric_limits<float>::max());
 
 }  // namespace vantage

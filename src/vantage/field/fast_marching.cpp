@@ -153,9 +153,9 @@ std::vector<Vec<Dim>> descend(const Field<Dim>& arrival, std::size_t from) {
   return path;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                \
-  template Field<D> fast_march<D>(const Field<D, std::uint8_t>&, std::span<const Seed>);                                      \
-  template Field<D> fast_march_to<D>(const Field<D, std::uint8_t>&, std::span<const Seed>, std::size_t);                      \
+#define VANTAGE_INSTANTIATE(D)                                                                           \
+  template Field<D> fast_march<D>(const Field<D, std::uint8_t>&, std::span<const Seed>);                 \
+  template Field<D> fast_march_to<D>(const Field<D, std::uint8_t>&, std::span<const Seed>, std::size_t); \
   template std::vector<Vec<D>> descend<D>(const Field<D>&, std::size_t);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

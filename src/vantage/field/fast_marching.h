@@ -17,8 +17,8 @@ template <int Dim>
   requires SpatialDim<Dim>
 [[nodiscard]] Field<Dim> fast_march(const Field<Dim, std::uint8_t>& passable, std::span<const Seed> seeds);
 
-/// The same towards one `target`: nodes are taken in order of u plus the straight distance to it, as A* does, and the rest stays at infinity. Values may lie
-/// a little above those of the full front; every finite node but a seed still has a lower neighbour. Cost: the nodes along the way, not all.
+/// The same towards one `target`: nodes are taken in order of u plus the straight distance to it, as A* does, and the rest stays at infinity. Values
+/// may lie a little above those of the full front; every finite node but a seed still has a lower neighbour. Cost: the nodes along the way, not all.
 template <int Dim>
   requires SpatialDim<Dim>
 [[nodiscard]] Field<Dim> fast_march_to(const Field<Dim, std::uint8_t>& passable, std::span<const Seed> seeds, std::size_t target);

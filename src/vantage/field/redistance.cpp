@@ -43,9 +43,8 @@ Field<Dim> signed_distance(const Field<Dim, std::uint8_t>& inside, double cap) {
   const double half = 0.5 * inside.window.spacing;
   Field<Dim> psi = distance_to_set(outside, cap + half);
   const Field<Dim> depth = distance_to_set(inside, cap + half);
-  parallel_for(psi.values.size(), 1 << 14, [&](std::size_t i) {
-    psi[i] = inside[i] != 0 ? static_cast<float>(psi[i] - half) : static_cast<float>(half - depth[i]);
-  });
+  parallel_for(psi.values.size(), 1 << 14,
+               [&](std::size_t i) { psi[i] = inside[i] != 0 ? static_cast<float>(psi[i] - half) : static_cast<float>(half - depth[i]); });
   return psi;
 }
 
@@ -68,8 +67,8 @@ Field<Dim> redistance(const Field<Dim>& phi) {
   return out;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                            \
-  template Field<D> signed_distance<D>(const Field<D, std::uint8_t>&, double);            \
+#define VANTAGE_INSTANTIATE(D)                                                 \
+  template Field<D> signed_distance<D>(const Field<D, std::uint8_t>&, double); \
   template Field<D> redistance<D>(const Field<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

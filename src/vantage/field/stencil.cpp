@@ -68,13 +68,11 @@ double smeared_delta(double value, double epsilon) {
   return std::abs(value) < epsilon ? (1.0 + sin_cos(kPi * value / epsilon)[1]) / (2.0 * epsilon) : 0.0;
 }
 
-double printed_delta(double value, double epsilon) {
-  return std::abs(value) < epsilon ? (1.0 + sin_cos(value / epsilon)[1]) / (2.0 * epsilon) : 0.0;
-}
+double printed_delta(double value, double epsilon) { return std::abs(value) < epsilon ? (1.0 + sin_cos(value / epsilon)[1]) / (2.0 * epsilon) : 0.0; }
 
-#define VANTAGE_INSTANTIATE(D)                                              \
-  template Field<D> smooth<D>(Field<D>, int);                               \
-  template Vec<D> gradient<D>(const Field<D>&, const Index<D>&);            \
+#define VANTAGE_INSTANTIATE(D)                                   \
+  template Field<D> smooth<D>(Field<D>, int);                    \
+  template Vec<D> gradient<D>(const Field<D>&, const Index<D>&); \
   template double laplacian<D>(const Field<D>&, const Index<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

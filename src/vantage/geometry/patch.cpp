@@ -135,8 +135,7 @@ template <int Dim>
 double distance_to_segment(const Patch<Dim>& patch, const Vec<Dim>& a, const Vec<Dim>& b) {
   const auto& v = patch.vertices;
   double best = std::min(distance(patch, a), distance(patch, b));
-  for (int i = 0; i < patch.count; ++i)
-    best = std::min(best, segment_distance<Dim>(a, b, v[i], v[(i + 1) % patch.count]));
+  for (int i = 0; i < patch.count; ++i) best = std::min(best, segment_distance<Dim>(a, b, v[i], v[(i + 1) % patch.count]));
   if (patch.count >= 3) {
     const double length = (b - a).norm();
     if (length > 0.0)
@@ -164,13 +163,13 @@ std::optional<double> ray_range(const Patch<Dim>& patch, const Vec<Dim>& origin,
   return std::nullopt;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                     \
-  template Patch<D> point_patch<D>(const Vec<D>&);                                                 \
-  template Patch<D> segment_patch<D>(const Vec<D>&, const Vec<D>&);                                \
-  template double measure<D>(const Patch<D>&);                                                     \
-  template Vec<D> normal<D>(const Patch<D>&);                                                      \
-  template Vec<D> closest_point<D>(const Patch<D>&, const Vec<D>&);                                \
-  template double distance_to_segment<D>(const Patch<D>&, const Vec<D>&, const Vec<D>&);           \
+#define VANTAGE_INSTANTIATE(D)                                                           \
+  template Patch<D> point_patch<D>(const Vec<D>&);                                       \
+  template Patch<D> segment_patch<D>(const Vec<D>&, const Vec<D>&);                      \
+  template double measure<D>(const Patch<D>&);                                           \
+  template Vec<D> normal<D>(const Patch<D>&);                                            \
+  template Vec<D> closest_point<D>(const Patch<D>&, const Vec<D>&);                      \
+  template double distance_to_segment<D>(const Patch<D>&, const Vec<D>&, const Vec<D>&); \
   template std::optional<double> ray_range<D>(const Patch<D>&, const Vec<D>&, const Vec<D>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

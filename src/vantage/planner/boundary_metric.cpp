@@ -88,7 +88,8 @@ std::vector<BoundaryElement<Dim>> smeared_elements(const BeliefView<Dim>& view, 
 }  // namespace
 
 template <int Dim>
-std::vector<BoundaryElement<Dim>> boundary_elements(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const PlannerOptions& options) {
+std::vector<BoundaryElement<Dim>> boundary_elements(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces,
+                                                    const PlannerOptions& options) {
   if (options.elements != PlannerOptions::Elements::faces) return smeared_elements(view, options);
   std::vector<BoundaryElement<Dim>> elements;
   const double area = power<Dim>(view.window().spacing, Dim - 1);
@@ -118,7 +119,7 @@ double boundary_metric(std::span<const BoundaryElement<Dim>> elements, const Ray
   return sum;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                               \
+#define VANTAGE_INSTANTIATE(D)                                                                                                                  \
   template std::vector<BoundaryElement<D>> boundary_elements<D>(const BeliefView<D>&, std::span<const BoundaryFace<D>>, const PlannerOptions&); \
   template double boundary_metric<D>(std::span<const BoundaryElement<D>>, const RayMarch<D>&, const Vec<D>&, const PlannerOptions&);
 VANTAGE_INSTANTIATE(2)

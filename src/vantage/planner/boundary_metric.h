@@ -12,9 +12,9 @@ namespace vantage {
 /// A piece of the boundary of the occlusion set, as the paper's sum sees it.
 template <int Dim>
 struct BoundaryElement {
-  Vec<Dim> place;      ///< y [m]
-  Vec<Dim> normal;     ///< grad psi: into the seen space [1].
-  double area = 0.0;   ///< delta(psi) h^d, or the area of a face [m^(Dim-1)].
+  Vec<Dim> place;     ///< y [m]
+  Vec<Dim> normal;    ///< grad psi: into the seen space [1].
+  double area = 0.0;  ///< delta(psi) h^d, or the area of a face [m^(Dim-1)].
 };
 
 /// The elements of Eq. (1) as the options want them: one per face, or smeared over |psi| < 2 h; all of the boundary (as printed, where omega_O is

@@ -60,7 +60,8 @@ std::vector<const BoundaryFace<Dim>*> targets(std::span<const BoundaryFace<Dim>>
 
 /// Up to two nodes that look at the face from its seen side, sought in ever wider rings.
 template <int Dim>
-std::vector<std::size_t> viewers(const BoundaryFace<Dim>& face, const Blocks<Dim>& blocks, const RayMarch<Dim>& rays, const Grid<Dim>& grid, Random& random) {
+std::vector<std::size_t> viewers(const BoundaryFace<Dim>& face, const Blocks<Dim>& blocks, const RayMarch<Dim>& rays, const Grid<Dim>& grid,
+                                 Random& random) {
   constexpr int kTries = 12;
   std::vector<std::size_t> found;
   const Index<Dim> center = blocks.block_of(face.seen);

@@ -10,8 +10,8 @@
 
 namespace vantage {
 
-/// Nodes a vantage point may be moved to from `from`: seen, at `clearance` from the known surface, joined to `from` through such nodes (1, else 0). Where
-/// `from` itself has less clearance, as a start may, any seen node near it will do.
+/// Nodes a vantage point may be moved to from `from`: seen, at `clearance` from the known surface, joined to `from` through such nodes (1, else 0).
+/// Where `from` itself has less clearance, as a start may, any seen node near it will do.
 template <int Dim>
 [[nodiscard]] Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, double clearance);
 
@@ -24,7 +24,7 @@ template <int Dim>
 /// At most `limit` of `nodes`: two fifths at random, the rest aimed at the faces most likely to open, from in front of them and in line of sight
 /// (planner.md Sec. 4). In order of their index, none twice.
 template <int Dim>
-[[nodiscard]] std::vector<std::size_t> choose_candidates(std::span<const std::size_t> nodes, std::span<const BoundaryFace<Dim>> faces, const RayMarch<Dim>& rays,
-                                                         const Grid<Dim>& grid, std::size_t limit, std::uint64_t seed);
+[[nodiscard]] std::vector<std::size_t> choose_candidates(std::span<const std::size_t> nodes, std::span<const BoundaryFace<Dim>> faces,
+                                                         const RayMarch<Dim>& rays, const Grid<Dim>& grid, std::size_t limit, std::uint64_t seed);
 
 }  // namespace vantage

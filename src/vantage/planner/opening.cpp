@@ -155,7 +155,8 @@ void OpeningModel<Dim>::classify(const Grid<Dim>& grid) {
     const auto found = company.find(block(face.unseen));
     const int others = found == company.end() ? 0 : found->second;
     const auto a = bin_of(face.known_distance / h, std::array{.5, .75, 1.2, 2.0});
-    const auto c = failed >= 0.3 ? static_cast<std::uint8_t>(4 + bin_of(failed, std::array{.3, .9, 2.0})) : bin_of(face.frontal, std::array{.03, .08, .16, .3});
+    const auto c =
+        failed >= 0.3 ? static_cast<std::uint8_t>(4 + bin_of(failed, std::array{.3, .9, 2.0})) : bin_of(face.frontal, std::array{.03, .08, .16, .3});
     const auto l = static_cast<std::uint8_t>(others == 0 ? 0 : others <= 2 * (Dim - 1) ? 1 : 2);
     face.bin = {a, c, l};
     if (rule_ == Rule::learned) {

@@ -13,15 +13,15 @@ namespace vantage {
 /// A lattice face between a seen node and an unseen one: an element of the boundary of the occlusion set.
 template <int Dim>
 struct BoundaryFace {
-  std::size_t seen = 0, unseen = 0;  ///< Linear indices.
-  int direction = 0;                 ///< 2 axis + (1 if the unseen node is the lower one).
-  Vec<Dim> center;                   ///< [m]
-  Vec<Dim> normal;                   ///< Mean unit normal from grad psi, into the seen space.
-  double known_distance = 0.0;       ///< Of the nearer of its nodes to the known surface [m].
-  double frontal = 0.0;              ///< Best cosine at which an earlier observer in line of sight has looked at it [1].
-  int frontal_views = 0;             ///< How many looked at it at a cosine above 0.08.
+  std::size_t seen = 0, unseen = 0;   ///< Linear indices.
+  int direction = 0;                  ///< 2 axis + (1 if the unseen node is the lower one).
+  Vec<Dim> center;                    ///< [m]
+  Vec<Dim> normal;                    ///< Mean unit normal from grad psi, into the seen space.
+  double known_distance = 0.0;        ///< Of the nearer of its nodes to the known surface [m].
+  double frontal = 0.0;               ///< Best cosine at which an earlier observer in line of sight has looked at it [1].
+  int frontal_views = 0;              ///< How many looked at it at a cosine above 0.08.
   std::array<std::uint8_t, 3> bin{};  ///< Distance, evidence, company.
-  double probability = 0.5;          ///< That it opens when looked at [1].
+  double probability = 0.5;           ///< That it opens when looked at [1].
 
   /// Unit step from the unseen node to the seen one.
   [[nodiscard]] Vec<Dim> step() const {
@@ -57,8 +57,8 @@ class OpeningModel {
 
   Rule rule_;
   std::vector<Vec<Dim>> observers_;
-  std::vector<BoundaryFace<Dim>> faces_;  // In order of (seen, direction).
-  Field<Dim> openness_, failures_;        // failures_: F of planner.md, per unseen node.
+  std::vector<BoundaryFace<Dim>> faces_;                                                      // In order of (seen, direction).
+  Field<Dim> openness_, failures_;                                                            // failures_: F of planner.md, per unseen node.
   std::array<std::array<double, 2>, kDistanceBins * kEvidenceBins * kCompanyBins> counts_{};  // Opened, stayed.
 };
 

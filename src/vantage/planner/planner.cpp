@@ -57,7 +57,8 @@ void describe(PlannerOptions& o, const OptionVisitor& visit) {
   visit("refine", o.refine, "candidates", Range{1, 1e6}, "looked at twice");
   visit("elements", o.elements, Choices{"faces", "smeared", "printed"}, "boundary sum: one element a face, smeared delta, or the delta as printed");
   visit("facing", o.facing, Choices{"seen", "behind", "absolute"}, "boundary sum: which side counts; behind is as printed");
-  visit("mask", o.mask, Choices{"both", "known", "none"}, "boundary sum: without known surface and what was looked at frontally, without known surface, all as printed");
+  visit("mask", o.mask, Choices{"both", "known", "none"},
+        "boundary sum: without known surface and what was looked at frontally, without known surface, all as printed");
   visit("normalise", o.normalise, "boundary sum: divide by the distance; false as printed");
   visit("line_of_sight", o.line_of_sight, "boundary sum: only elements in view; false as printed");
   visit("tau_power", o.tau_power, "", Range{0, 4}, "depth factor tau = r^-p, in quarters; 0 is the paper's");
@@ -73,7 +74,10 @@ void describe(PlannerOptions& o, const OptionVisitor& visit) {
 template <int Dim>
   requires SpatialDim<Dim>
 Planner<Dim>::Planner(const PlannerOptions& options, double max_range, std::uint64_t seed)
-    : options_(options), max_range_(max_range), seed_(seed), opening_(options.learned ? OpeningModel<Dim>::Rule::learned : OpeningModel<Dim>::Rule::masks) {
+    : options_(options),
+      max_range_(max_range),
+      seed_(seed),
+      opening_(options.learned ? OpeningModel<Dim>::Rule::learned : OpeningModel<Dim>::Rule::masks) {
   check_options(options, "planner");
 }
 
@@ -109,7 +113,8 @@ auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const st
       scale_.area = std::max(scale_.area, s.sums.area);
     }
     for (Scored& s : scored) s.score = mix(s.sums);
-    std::sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
+    std::sort(scored.begin(), scored.end(),
+              [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
   };
   for (std::size_t i = 0; i < nodes.size(); ++i) scored[i].node = nodes[i];
   look(scored, options_.rays);
@@ -136,9 +141,11 @@ auto Planner<Dim>::score_by_boundary(const BeliefView<Dim>& view, std::span<cons
     scored[i].node = nodes[i];
     scored[i].score = boundary_metric<Dim>(elements, march, view.window().position(nodes[i]), options_);
   });
-  std::sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
+  std::sort(scored.begin(), scored.end(),
+            [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
   // The end of the run is judged by expected volume whatever the metric (method.md Sec. 7): that of the best few.
-  parallel_for(std::min<std::size_t>(scored.size(), 64), 1, [&](std::size_t i) { scored[i].sums = march.look(view.window().position(scored[i].node), directions); });
+  parallel_for(std::min<std::size_t>(scored.size(), 64), 1,
+               [&](std::size_t i) { scored[i].sums = march.look(view.window().position(scored[i].node), directions); });
   return scored;
 }
 
@@ -199,7 +206,8 @@ std::vector<double> Planner<Dim>::evaluate(const BeliefView<Dim>& view, std::spa
   const RayMarch<Dim> march = rays(view);
   const bool by_rays = options_.metric == PlannerOptions::Metric::ray;
   const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays / 2), seed_);
-  const std::vector<BoundaryElement<Dim>> elements = by_rays ? std::vector<BoundaryElement<Dim>>{} : boundary_elements(view, opening_.faces(), options_);
+  const std::vector<BoundaryElement<Dim>> elements =
+      by_rays ? std::vector<BoundaryElement<Dim>>{} : boundary_elements(view, opening_.faces(), options_);
   std::vector<double> values(places.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_for(places.size(), 1, [&](std::size_t i) {
     const Index<Dim> node = view.window().nearest(places[i]);

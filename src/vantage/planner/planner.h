@@ -15,12 +15,12 @@ namespace vantage {
 template <int Dim>
 struct Decision {
   bool found = false;
-  Vec<Dim> position = Vec<Dim>::Zero();    ///< arg max E [m]
-  double score = 0.0;                      ///< max E: mixed terms [1] for rays, Eq. (1) for the boundary sum [m^(Dim-1)].
-  double area = 0.0;                       ///< Eq. (1) with line of sight at the chosen place [m^(Dim-1)].
-  double expected_volume = 0.0;            ///< Largest over the candidates [m^Dim].
-  std::int64_t candidates = 0;             ///< Evaluated.
-  std::vector<Vec<Dim>> path;              ///< From where we are to `position` [m].
+  Vec<Dim> position = Vec<Dim>::Zero();  ///< arg max E [m]
+  double score = 0.0;                    ///< max E: mixed terms [1] for rays, Eq. (1) for the boundary sum [m^(Dim-1)].
+  double area = 0.0;                     ///< Eq. (1) with line of sight at the chosen place [m^(Dim-1)].
+  double expected_volume = 0.0;          ///< Largest over the candidates [m^Dim].
+  std::int64_t candidates = 0;           ///< Evaluated.
+  std::vector<Vec<Dim>> path;            ///< From where we are to `position` [m].
   enum class End { none, nothing_can_open, below_threshold, idle, unreachable } end = End::none;
   std::vector<std::pair<std::size_t, float>> scored;  ///< Candidates (linear index) and their E.
 };
@@ -60,7 +60,7 @@ class Planner {
   OpeningModel<Dim> opening_;
   std::vector<Vec<Dim>> visited_;
   Field<Dim, std::uint8_t> reachable_;
-  RaySums scale_;        // Largest of each term over the candidates of the last decision.
+  RaySums scale_;  // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
   int below_ = 0, idle_ = 0;  // Picks in a row.
 };

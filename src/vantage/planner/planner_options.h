@@ -24,21 +24,21 @@ struct PlannerOptions {
   // Boundary sum.
   enum class Elements { faces, smeared, printed } elements = Elements::faces;  ///< printed: delta without pi.
   enum class Facing { seen, behind, absolute } facing = Facing::seen;          ///< behind: as printed.
-  enum class Mask { both, known, none } mask = Mask::both;                     ///< Which elements are shadow boundary; none: omega_O as printed, identically 1.
-  bool normalise = true;                                                       ///< Divide by |z - y|; false: as printed.
-  bool line_of_sight = true;                                                   ///< Eq. (1) has none.
-  double tau_power = 0.0;                                                      ///< tau = r^-p; 0 is the paper's.
+  enum class Mask { both, known, none } mask = Mask::both;  ///< Which elements are shadow boundary; none: omega_O as printed, identically 1.
+  bool normalise = true;                                    ///< Divide by |z - y|; false: as printed.
+  bool line_of_sight = true;                                ///< Eq. (1) has none.
+  double tau_power = 0.0;                                   ///< tau = r^-p; 0 is the paper's.
 
   // Candidates.
-  std::int64_t candidates = 500;  ///< At most (2D: twice as many; boundary metric without line of sight: all medial nodes up to 20 times).
-  double curvature = 0.5;         ///< M in -lap(psi) > M/h.
-  bool printed_curvature = false; ///< lap(psi) > M/h, as printed.
-  double clearance = 0.5;         ///< Of a vantage point and of the path to known obstacles [m].
+  std::int64_t candidates = 500;   ///< At most (2D: twice as many; boundary metric without line of sight: all medial nodes up to 20 times).
+  double curvature = 0.5;          ///< M in -lap(psi) > M/h.
+  bool printed_curvature = false;  ///< lap(psi) > M/h, as printed.
+  double clearance = 0.5;          ///< Of a vantage point and of the path to known obstacles [m].
 
   // Stop.
-  double stop_volume = 2e-4;      ///< Expected new volume as a share of the seen volume, twice in a row.
-  std::int64_t idle_limit = 30;   ///< Picks in a row that gained nothing.
-  double report_volume = 0.0;     ///< Unseen regions below this are not listed [m^Dim]; 0: a cube of three cells.
+  double stop_volume = 2e-4;     ///< Expected new volume as a share of the seen volume, twice in a row.
+  std::int64_t idle_limit = 30;  ///< Picks in a row that gained nothing.
+  double report_volume = 0.0;    ///< Unseen regions below this are not listed [m^Dim]; 0: a cube of three cells.
 };
 
 void describe(PlannerOptions& options, const OptionVisitor& visit);

@@ -138,7 +138,9 @@ TYPED_TEST(PlannerTest, BoundarySumOfOneWallAgreesWithTheRayForm) {
 TYPED_TEST(PlannerTest, OpacityFadesTheUnseenAndObstaclesEndTheRay) {
   constexpr int Dim = TypeParam::value;
   const auto open = half_space<Dim>(6.0);
-  const HandMade<Dim> walled(cube<Dim>(6.0), [](const Vec<Dim>& p) { return p[0] < 0.0 ? NodeState::seen : p[0] < 2.0 ? NodeState::unseen : NodeState::obstacle; });
+  const HandMade<Dim> walled(cube<Dim>(6.0), [](const Vec<Dim>& p) {
+    return p[0] < 0.0 ? NodeState::seen : p[0] < 2.0 ? NodeState::unseen : NodeState::obstacle;
+  });
   const auto openness = openness_one(open);
   const auto rays = spread_directions<Dim>(1000, 1);
   const auto volume = [&](const HandMade<Dim>& belief, double lambda) {

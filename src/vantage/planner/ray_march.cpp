@@ -41,7 +41,8 @@ double inverse_power(double x, double power) {
 
 template <int Dim>
   requires SpatialDim<Dim>
-RayMarch<Dim>::RayMarch(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium) : view_(view), openness_(openness), medium_(medium) {}
+RayMarch<Dim>::RayMarch(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium)
+    : view_(view), openness_(openness), medium_(medium) {}
 
 template <int Dim>
   requires SpatialDim<Dim>

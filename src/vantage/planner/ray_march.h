@@ -45,9 +45,9 @@ class RayMarch {
 
  private:
   struct Stop {
-    double range = 0.0;            // [cells]
-    std::size_t node = 0;          // First node not seen.
-    bool inside = false;           // False: left the domain or the range.
+    double range = 0.0;    // [cells]
+    std::size_t node = 0;  // First node not seen.
+    bool inside = false;   // False: left the domain or the range.
   };
   [[nodiscard]] Stop march(const Vec<Dim>& start, const Vec<Dim>& direction, double limit) const;
   [[nodiscard]] bool locate(const Vec<Dim>& place, std::size_t& node) const;

@@ -14,8 +14,8 @@ struct Components {
 
   struct Part {
     double nodes = 0.0;
-    double deepest = 0.0;               // Largest -psi [m].
-    Index<Dim> low, high;               // Inclusive.
+    double deepest = 0.0;                                  // Largest -psi [m].
+    Index<Dim> low, high;                                  // Inclusive.
     double open = 0.0, open_most = 0.0, open_least = 0.0;  // What its faces may open [m^Dim].
     bool has_face = false, reachable = false;
   };
@@ -59,7 +59,8 @@ double depth_behind(const BeliefView<Dim>& view, const BoundaryFace<Dim>& face, 
   const Grid<Dim>& grid = view.window();
   const int axis = face.direction / 2, inward = face.direction % 2 == 0 ? 1 : -1;
   double depth = 0.0;
-  for (Index<Dim> node = grid.local(face.unseen); grid.inside(node) && view.state.at(node) == NodeState::unseen && depth < limit; node[axis] += inward)
+  for (Index<Dim> node = grid.local(face.unseen); grid.inside(node) && view.state.at(node) == NodeState::unseen && depth < limit;
+       node[axis] += inward)
     depth += grid.spacing;
   return std::min(depth, limit);
 }
@@ -104,10 +105,14 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
     region.volume = volume;
     region.may_open = std::min(volume, part.open);
     region.box = {grid.position(part.low).array() - 0.5 * h, grid.position(part.high).array() + 0.5 * h};
-    if (!part.has_face) region.reason = "enclosed";
-    else if (part.deepest < h) region.reason = "too fine for the lattice";
-    else if (!part.reachable) region.reason = "no reachable view";
-    else region.reason = "below the threshold";
+    if (!part.has_face)
+      region.reason = "enclosed";
+    else if (part.deepest < h)
+      region.reason = "too fine for the lattice";
+    else if (!part.reachable)
+      region.reason = "no reachable view";
+    else
+      region.reason = "below the threshold";
     verdict.unseen.push_back(region);
   }
   std::stable_sort(verdict.unseen.begin(), verdict.unseen.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });

@@ -12,21 +12,21 @@ namespace vantage {
 /// A region that stays unseen, and why.
 template <int Dim>
 struct UnseenRegion {
-  double volume = 0.0;      ///< [m^Dim]
-  double may_open = 0.0;    ///< Expected to be seen from somewhere [m^Dim].
-  Box<Dim> box;             ///< [m]
-  std::string reason;       ///< "enclosed", "no reachable view", "beyond range", "below the threshold", "too fine for the lattice"
+  double volume = 0.0;    ///< [m^Dim]
+  double may_open = 0.0;  ///< Expected to be seen from somewhere [m^Dim].
+  Box<Dim> box;           ///< [m]
+  std::string reason;     ///< "enclosed", "no reachable view", "beyond range", "below the threshold", "too fine for the lattice"
 };
 
 /// Why the run ended, and what is left.
 template <int Dim>
 struct Verdict {
   bool complete = false;
-  std::string reason;                           ///< One sentence.
-  double seen_fraction = 0.0;                   ///< seen / (seen + what may still open) [1]
-  double seen_low = 0.0, seen_high = 1.0;       ///< Bounds on it [1].
-  double unseen_volume = 0.0;                   ///< All of it [m^Dim].
-  std::vector<UnseenRegion<Dim>> unseen;        ///< Largest first; the smallest are left out.
+  std::string reason;                      ///< One sentence.
+  double seen_fraction = 0.0;              ///< seen / (seen + what may still open) [1]
+  double seen_low = 0.0, seen_high = 1.0;  ///< Bounds on it [1].
+  double unseen_volume = 0.0;              ///< All of it [m^Dim].
+  std::vector<UnseenRegion<Dim>> unseen;   ///< Largest first; the smallest are left out.
 };
 
 /// What is left to see: shares and regions; `complete` and `reason` are the caller's. `opacity` is measured_opacity times its factor [1/m];

@@ -44,8 +44,8 @@ class RangeImage {
 /// The hyperplane N . x = k as inverse ranges: 1/r = (N/k) . u.
 template <int Dim>
 struct InversePlane {
-  Vec<Dim> slope;      ///< N / k [1/m]
-  double tolerance;    ///< On 1/r [1/m]
+  Vec<Dim> slope;    ///< N / k [1/m]
+  double tolerance;  ///< On 1/r [1/m]
 
   /// Tolerance for hits at `ranges` on a lattice of spacing h: a seventh of their spread, or a twentieth of a cell in depth.
   static double tolerance_for(std::span<const double> ranges, double h) {

@@ -13,18 +13,18 @@ namespace vantage {
 
 /// How rays leave a spinning scanner (paper Sec. V, VI). In 3D a column is a vertical line of `rows` rays; in 2D there is one row.
 struct ScanPattern {
-  double step = radians(0.5);              ///< Between neighbouring rays, both ways [rad].
-  double horizontal_fov = 2.0 * kPi;       ///< Centred on the sensor's first axis [rad].
-  double vertical_fov = radians(179.5);    ///< Centred on the horizon [rad]; 3D only.
-  double min_range = 0.0;                  ///< Nearer surfaces give no data [m].
-  double max_range = 80.0;                 ///< Farther surfaces give no return [m].
+  double step = radians(0.5);            ///< Between neighbouring rays, both ways [rad].
+  double horizontal_fov = 2.0 * kPi;     ///< Centred on the sensor's first axis [rad].
+  double vertical_fov = radians(179.5);  ///< Centred on the horizon [rad]; 3D only.
+  double min_range = 0.0;                ///< Nearer surfaces give no data [m].
+  double max_range = 80.0;               ///< Farther surfaces give no return [m].
 
   [[nodiscard]] bool full_circle() const { return horizontal_fov > 2.0 * kPi - 0.5 * step; }
-  [[nodiscard]] int columns() const;                          ///< 720 for the paper's sensor.
+  [[nodiscard]] int columns() const;  ///< 720 for the paper's sensor.
   template <int Dim>
-  [[nodiscard]] int rows() const;                             ///< 360 for the paper's sensor; 1 in 2D.
-  [[nodiscard]] double azimuth(int column) const;             ///< [rad], -fov/2 .. fov/2, a full circle starts at -pi.
-  [[nodiscard]] double elevation(int row) const;              ///< [rad], lowest first.
+  [[nodiscard]] int rows() const;                  ///< 360 for the paper's sensor; 1 in 2D.
+  [[nodiscard]] double azimuth(int column) const;  ///< [rad], -fov/2 .. fov/2, a full circle starts at -pi.
+  [[nodiscard]] double elevation(int row) const;   ///< [rad], lowest first.
   [[nodiscard]] bool operator==(const ScanPattern&) const = default;
 };
 
@@ -39,7 +39,7 @@ inline constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 template <int Dim>
   requires SpatialDim<Dim>
 struct Scan {
-  Vec<Dim> origin = Vec<Dim>::Zero();                                                      ///< Vantage point [m].
+  Vec<Dim> origin = Vec<Dim>::Zero();                                                               ///< Vantage point [m].
   Eigen::Matrix<double, Dim, Dim> world_from_sensor = Eigen::Matrix<double, Dim, Dim>::Identity();  ///< Rotation.
   ScanPattern pattern;
   std::vector<float> ranges;  ///< (columns, rows), rows fastest [m].

@@ -12,7 +12,8 @@ namespace {
 template <int Dim>
 std::array<double, 2> image_place(const ScanPattern& pattern, const Vec<Dim>& d) {
   const double azimuth = angle_of(d[1], d[0]);
-  const double column = pattern.full_circle() ? (azimuth + kPi) / (2.0 * kPi) * pattern.columns() : azimuth / pattern.step + 0.5 * (pattern.columns() - 1);
+  const double column =
+      pattern.full_circle() ? (azimuth + kPi) / (2.0 * kPi) * pattern.columns() : azimuth / pattern.step + 0.5 * (pattern.columns() - 1);
   const double height = (Dim - 2) * d[Dim - 1];
   const double elevation = angle_of(height, d.template head<2>().norm());
   return {column, elevation / pattern.step + 0.5 * (pattern.rows<Dim>() - 1)};
@@ -105,7 +106,8 @@ std::size_t DepthImage<Dim>::pixel(const Vec<Dim>& direction) const {
   auto index = static_cast<std::size_t>(2 * axis + (direction[axis] < 0.0 ? 1 : 0));
   for (int k = 1; k < Dim; ++k) {
     const double w = direction[(axis + k) % Dim] / major;
-    index = index * static_cast<std::size_t>(resolution_) + static_cast<std::size_t>(std::clamp(static_cast<int>((w + 1.0) * 0.5 * resolution_), 0, resolution_ - 1));
+    index = index * static_cast<std::size_t>(resolution_) +
+            static_cast<std::size_t>(std::clamp(static_cast<int>((w + 1.0) * 0.5 * resolution_), 0, resolution_ - 1));
   }
   return index;
 }
@@ -200,9 +202,9 @@ void draw_patches(DepthImage<Dim>& image, std::span<const Patch<Dim>> patches, c
   });
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                               \
-  template class DepthImage<D>;                                                                                              \
-  template void draw_ranges<D>(DepthImage<D>&, const Scan<D>&);                                                              \
+#define VANTAGE_INSTANTIATE(D)                                  \
+  template class DepthImage<D>;                                 \
+  template void draw_ranges<D>(DepthImage<D>&, const Scan<D>&); \
   template void draw_patches<D>(DepthImage<D>&, std::span<const Patch<D>>, const Vec<D>&, double, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

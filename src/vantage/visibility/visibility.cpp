@@ -37,7 +37,8 @@ void describe(VisibilityOptions& o, const OptionVisitor& visit) {
 
 template <int Dim>
   requires SpatialDim<Dim>
-Field<Dim> visibility(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan, const Grid<Dim>& window, double eta, const VisibilityOptions& options) {
+Field<Dim> visibility(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan, const Grid<Dim>& window, double eta,
+                      const VisibilityOptions& options) {
   check_options(options, "visibility");
   require_memory(static_cast<double>(window.size()), 16.0, "visibility: the lattice");
   DepthImage<Dim> image(resolution_for(scan, window), static_cast<float>(scan.pattern.max_range));

@@ -11,9 +11,9 @@ namespace vantage {
 
 /// How lines of sight are tested (paper Sec. IV-B).
 struct VisibilityOptions {
-  bool range_image = true;   ///< The scan's own ranges hide what lies behind them (least of the 2 x 2 rays around a direction).
-  bool patches = true;       ///< The known surface hides too, each patch widened by `eta`.
-  double cone_angle = 0.0;   ///< Full opening of the cone that replaces a ray against patches [rad]; 0: plain rays; the paper's is 0.0175.
+  bool range_image = true;  ///< The scan's own ranges hide what lies behind them (least of the 2 x 2 rays around a direction).
+  bool patches = true;      ///< The known surface hides too, each patch widened by `eta`.
+  double cone_angle = 0.0;  ///< Full opening of the cone that replaces a ray against patches [rad]; 0: plain rays; the paper's is 0.0175.
 };
 
 void describe(VisibilityOptions& options, const OptionVisitor& visit);

@@ -66,10 +66,13 @@ TYPED_TEST(Visibility, ShadowOfABall) {
     const double range = p.norm();
     if (range == 0.0) continue;
     const bool truth = range <= scan.pattern.max_range && range < ball_range<Dim>(p / range, ball_center<Dim>(), kRadius);
-    if (truth) ++seen;
-    else ++hidden;
+    if (truth)
+      ++seen;
+    else
+      ++hidden;
     // Nothing behind the ball or out of range is ever called seen, but for the finite width of a ray at its rim.
-    const bool well_inside_shadow = !truth && (range > scan.pattern.max_range || ball_range<Dim>(p / range, ball_center<Dim>(), 0.97 * kRadius) < range);
+    const bool well_inside_shadow =
+        !truth && (range > scan.pattern.max_range || ball_range<Dim>(p / range, ball_center<Dim>(), 0.97 * kRadius) < range);
     if (well_inside_shadow) {
       ASSERT_LE(phi[i], 0.0F) << p.transpose();
     }

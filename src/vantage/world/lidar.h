@@ -12,10 +12,10 @@ namespace vantage {
 /// Imperfections of the simulated scanner; all off by default.
 struct LidarOptions {
   ScanPattern pattern;
-  double range_noise = 0.0;   ///< Standard deviation [m].
-  double dropout = 0.0;       ///< Share of the rays that give no data [1].
-  double outliers = 0.0;      ///< Share of the hits put at a random shorter range [1].
-  std::int64_t seed = 1;      ///< Of the imperfections.
+  double range_noise = 0.0;  ///< Standard deviation [m].
+  double dropout = 0.0;      ///< Share of the rays that give no data [1].
+  double outliers = 0.0;     ///< Share of the hits put at a random shorter range [1].
+  std::int64_t seed = 1;     ///< Of the imperfections.
 };
 
 void describe(LidarOptions& options, const OptionVisitor& visit);

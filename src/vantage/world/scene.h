@@ -16,17 +16,17 @@ template <int Dim>
 struct Scene {
   std::string name;
   Mesh<Dim> mesh;
-  Box<Dim> domain;                      ///< To be explored [m].
-  Vec<Dim> start = Vec<Dim>::Zero();    ///< First vantage point [m].
-  double voxel = 0.5;                   ///< Lattice spacing that suits it [m]; doors are at least three of them wide.
-  double eta = 0.1;                     ///< Hausdorff tolerance that suits it [m].
-  double range = 80.0;                  ///< Sensor range that suits it [m].
-  double clearance = 0.5;               ///< To obstacles [m].
+  Box<Dim> domain;                    ///< To be explored [m].
+  Vec<Dim> start = Vec<Dim>::Zero();  ///< First vantage point [m].
+  double voxel = 0.5;                 ///< Lattice spacing that suits it [m]; doors are at least three of them wide.
+  double eta = 0.1;                   ///< Hausdorff tolerance that suits it [m].
+  double range = 80.0;                ///< Sensor range that suits it [m].
+  double clearance = 0.5;             ///< To obstacles [m].
   struct Part {
-    std::string name;                   ///< "ground", "house", "wire", "pole", ...
-    std::uint32_t first = 0, count = 0; ///< Facets.
+    std::string name;                    ///< "ground", "house", "wire", "pole", ...
+    std::uint32_t first = 0, count = 0;  ///< Facets.
   };
-  std::vector<Part> parts;              ///< Consecutive facets by kind; may be empty for a file.
+  std::vector<Part> parts;  ///< Consecutive facets by kind; may be empty for a file.
 };
 
 using AnyScene = std::variant<Scene<2>, Scene<3>>;
@@ -35,13 +35,13 @@ using AnyScene = std::variant<Scene<2>, Scene<3>>;
 struct SceneInfo {
   std::string name;
   int dim = 3;
-  std::string description;                    ///< One sentence with its size.
+  std::string description;  ///< One sentence with its size.
   struct Parameter {
     std::string name;
     double value, low, high;
-    std::string doc;                          ///< With unit.
+    std::string doc;  ///< With unit.
   };
-  std::vector<Parameter> parameters;          ///< `seed` always among them.
+  std::vector<Parameter> parameters;  ///< `seed` always among them.
 };
 [[nodiscard]] const std::vector<SceneInfo>& scene_list();
 
