@@ -17,6 +17,7 @@ std::string help_of(const std::string& name) {
   Scenario scenario;
   for (const Option& option : list_options(scenario))
     if (option.name == name) return fmt::format("{} ({}; {})", option.doc, option.allowed(), option.name);
+  if (name == "planner.weights") return "how much seeing a place is worth: a box and its weight, 1 elsewhere; several boxes one after the other (planner.weights)";
   return "first vantage point, inside the domain [m] (2D: x,y)";
 }
 
@@ -41,6 +42,7 @@ ScenarioArguments::ScenarioArguments(CommandParser& parser) {
   add(parser, "--voxel", "METRES", {"explore.voxel"}, method);
   add(parser, "--grid", "CELLS", {"explore.grid"}, method);
   add(parser, "--clearance", "METRES", {"planner.clearance"}, method);
+  add(parser, "--weight", "x0,y0,z0,x1,y1,z1,w", {"planner.weights"}, method);
   add(parser, "--seed", "N", {"explore.seed", "sensor.seed"}, method);
   parser.app()
       .add_option("--set", sets_, "any option; vantage config dump lists all of them with unit, range and meaning")

@@ -114,7 +114,7 @@ double boundary_metric(std::span<const BoundaryElement<Dim>> elements, const Ray
     if (options.normalise) facing /= distance;
     if (options.tau_power > 0.0) facing *= inverse_power(distance, options.tau_power);
     if (options.line_of_sight && !rays.line_of_sight(z, element.place, 2.0 * rays.spacing())) continue;
-    sum += element.area * facing;
+    sum += element.area * facing * rays.weight_at(element.place);
   }
   return sum;
 }

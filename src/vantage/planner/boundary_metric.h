@@ -23,7 +23,7 @@ template <int Dim>
 [[nodiscard]] std::vector<BoundaryElement<Dim>> boundary_elements(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces,
                                                                   const PlannerOptions& options);
 
-/// E(z) of Eq. (1), facing, normalisation, tau and line of sight by the options; w = 1 [m^(Dim-1)]. Cost: one term an element.
+/// E(z) of Eq. (1), facing, normalisation, tau and line of sight by the options, w by `rays` [m^(Dim-1)]. Cost: one term an element.
 template <int Dim>
 [[nodiscard]] double boundary_metric(std::span<const BoundaryElement<Dim>> elements, const RayMarch<Dim>& rays, const Vec<Dim>& z,
                                      const PlannerOptions& options);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/planner/planner.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
+#include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/field/fast_marching.h"
 #include "vantage/planner/boundary_metric.h"
@@ -40,6 +43,29 @@ std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::
   std::vector<Vec<Dim>> path = descend(fast_march_to(reachable, std::span(&seed, 1), home), home);
   path.insert(path.begin(), here);
   return path;
+}
+
+/// w of every node, from the boxes of PlannerOptions::weights; empty if there are none.
+template <int Dim>
+Field<Dim> weight_field(const Grid<Dim>& window, const std::vector<double>& weights) {
+  if (weights.empty()) return {};
+  Field<Dim> field(window, 1.0F);
+  for (std::size_t i = 0; i < field.values.size(); ++i)
+    for (auto box = weights.begin(); box != weights.end(); box += 2 * Dim + 1) {
+      const Box<Dim> region{Eigen::Map<const Vec<Dim>>(&box[0]), Eigen::Map<const Vec<Dim>>(&box[Dim])};
+      if (region.contains(window.position(i))) field[i] = static_cast<float>(box[2 * Dim]);
+    }
+  return field;
+}
+
+template <int Dim>
+void check_weights(const std::vector<double>& weights) {
+  constexpr std::size_t kNumbers = 2 * Dim + 1;
+  require(weights.size() % kNumbers == 0, fmt::format("planner.weights: {} numbers: must be {} a box: low corner, high corner [m], weight", weights.size(), kNumbers));
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    require(std::isfinite(weights[i]), fmt::format("planner.weights: {}: must be finite", weights[i]));
+    if (i % kNumbers == kNumbers - 1) require(weights[i] >= 0.0 && weights[i] <= 1e6, fmt::format("planner.weights: weight {}: must be 0 .. 1e+06", weights[i]));
+  }
 }
 
 }  // namespace
@@ -79,12 +105,13 @@ Planner<Dim>::Planner(const PlannerOptions& options, double max_range, std::uint
       seed_(seed),
       opening_(options.learned ? OpeningModel<Dim>::Rule::learned : OpeningModel<Dim>::Rule::masks) {
   check_options(options, "planner");
+  check_weights<Dim>(options.weights);
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
 RayMarch<Dim> Planner<Dim>::rays(const BeliefView<Dim>& view) const {
-  return RayMarch<Dim>(view, opening_.openness(), {opacity_, max_range_, options_.tau_power});
+  return RayMarch<Dim>(view, opening_.openness(), {opacity_, max_range_, options_.tau_power, weight_.values.empty() ? nullptr : &weight_});
 }
 
 template <int Dim>
@@ -165,6 +192,7 @@ template <int Dim>
 Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume) {
   using Metric = PlannerOptions::Metric;
   visited_.push_back(here);
+  if (weight_.values.empty()) weight_ = weight_field<Dim>(view.window(), options_.weights);
   opening_.update(view, here, max_range_);
   opacity_ = options_.lambda_factor * measured_opacity(view);
   reachable_ = reachable_nodes(view, here, options_.clearance);

@@ -299,6 +299,29 @@ TYPED_TEST(PlannerTest, GoesToTheDoorByASafePath) {
   EXPECT_LT(verdict.seen_fraction, 1.0);
 }
 
+/// The weighting w: a place of weight 0 draws nobody, and the terms scale with it.
+TYPED_TEST(PlannerTest, WeightsDirectTheMetric) {
+  constexpr int Dim = TypeParam::value;
+  const HandMade<Dim> belief(cube<Dim>(6.0), [](const Vec<Dim>& p) { return std::abs(p[0]) < 2.0 ? NodeState::seen : NodeState::unseen; });
+  const auto choose = [&](double left, double right) {
+    PlannerOptions options;
+    for (const double x : {-6.0, 0.0}) {
+      for (int a = 0; a < Dim; ++a) options.weights.push_back(a == 0 ? x : -6.0);
+      for (int a = 0; a < Dim; ++a) options.weights.push_back(a == 0 ? x + 6.0 : 6.0);
+      options.weights.push_back(x < 0.0 ? left : right);
+    }
+    Planner<Dim> planner(options, 80.0, 1);
+    return planner.choose(belief.view(), on_axis<Dim>(0.0), 1.0);
+  };
+  const double both = choose(1.0, 1.0).expected_volume, doubled = choose(2.0, 2.0).expected_volume;
+  EXPECT_NEAR(doubled, 2.0 * both, 1e-3 * both);
+  EXPECT_LT(choose(0.0, 1.0).expected_volume, 0.9 * both);
+  EXPECT_FALSE(choose(0.0, 0.0).found);
+  PlannerOptions short_list;
+  short_list.weights = {0.0, 1.0};
+  EXPECT_ANY_THROW(Planner<Dim>(short_list, 80.0, 1));
+}
+
 TYPED_TEST(PlannerTest, SameBitsForAnyNumberOfThreads) {
   constexpr int Dim = TypeParam::value;
   const auto belief = half_space<Dim>(4.0);

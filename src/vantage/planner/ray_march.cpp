@@ -98,15 +98,16 @@ void RayMarch<Dim>::add_beyond(const Vec<Dim>& start, const Vec<Dim>& direction,
     t += 0.5;
     if (t > give_up || !locate(start + t * direction, node) || view_.seen(node)) return;
   }
-  const double h = view_.window().spacing, limit = medium_.max_range / h;
-  sums.solid_angle += weight * solid_angle;
-  sums.area += weight * solid_angle * cell_power<Dim>(stop.range * h) * inverse_power(std::max(stop.range * h, 1e-9), medium_.tau_power);
+  const auto priority = [&](std::size_t at) { return medium_.weight == nullptr ? 1.0 : static_cast<double>((*medium_.weight)[at]); };
+  const double h = view_.window().spacing, limit = medium_.max_range / h, here = priority(node);
+  sums.solid_angle += here * weight * solid_angle;
+  sums.area += here * weight * solid_angle * cell_power<Dim>(stop.range * h) * inverse_power(std::max(stop.range * h, 1e-9), medium_.tau_power);
   const double fade = exp_minus(medium_.lambda * h);  // Over one cell of the unseen.
   double transmitted = weight * solid_angle * h;
   for (t = stop.range; t < limit; t += 1.0) {
     if (!locate(start + t * direction, node) || view_.state[node] == NodeState::obstacle) return;
     if (view_.seen(node)) continue;
-    sums.volume += transmitted * cell_power<Dim>(t * h);
+    sums.volume += priority(node) * transmitted * cell_power<Dim>(t * h);
     transmitted *= fade;
     if (transmitted < 1e-6 * solid_angle) return;
   }
@@ -135,6 +136,14 @@ bool RayMarch<Dim>::line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, doub
   if (limit <= 0.0) return true;
   const Vec<Dim> start = from / grid.spacing - grid.first.template cast<double>();
   return march(start, offset / distance, limit).range >= limit;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+double RayMarch<Dim>::weight_at(const Vec<Dim>& place) const {
+  if (medium_.weight == nullptr) return 1.0;
+  const Index<Dim> node = view_.window().nearest(place);
+  return view_.window().inside(node) ? static_cast<double>(medium_.weight->at(node)) : 1.0;
 }
 
 template <int Dim>

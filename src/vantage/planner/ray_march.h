@@ -32,6 +32,7 @@ class RayMarch {
     double lambda = 0.0;      ///< Opacity of the unseen [1/m].
     double max_range = 80.0;  ///< [m]
     double tau_power = 0.0;   ///< tau = r^-p.
+    const Field<Dim>* weight = nullptr;  ///< w per node [1]; none: 1 everywhere.
   };
   /// `openness`: for each unseen node the probability that it opens when looked at, 0 where nothing is known [1]. Both must outlive this.
   RayMarch(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium);
@@ -41,6 +42,8 @@ class RayMarch {
 
   /// True if the straight line from `from` runs through seen nodes until it is within `slack` of `to` [m].
   [[nodiscard]] bool line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, double slack) const;
+  /// w at a place; 1 outside of the window.
+  [[nodiscard]] double weight_at(const Vec<Dim>& place) const;
   [[nodiscard]] double spacing() const { return view_.window().spacing; }
 
  private:

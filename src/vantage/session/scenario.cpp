@@ -41,15 +41,21 @@ std::vector<std::string> parts_of(std::string_view text, char separator) {
   return parts;
 }
 
-std::vector<double> parse_start(const Setting& setting) {
-  std::vector<double> start;
+std::vector<double> parse_numbers(const Setting& setting) {
+  std::vector<double> numbers;
+  if (setting.value.empty()) return numbers;
   double scratch = 0.0;
   for (const std::string& part : parts_of(setting.value, ',')) {
-    Option option{"start", &scratch, "m", {}, ""};
+    Option option{"number", &scratch, "", {}, ""};
     option.parse(part, setting.name);
     require(std::isfinite(scratch), fmt::format("{} = {}: must be finite", setting.name, setting.value));
-    start.push_back(scratch);
+    numbers.push_back(scratch);
   }
+  return numbers;
+}
+
+std::vector<double> parse_start(const Setting& setting) {
+  std::vector<double> start = parse_numbers(setting);
   require(start.size() == 2 || start.size() == 3, fmt::format("{} = {}: must be x,y,z [m] (2D: x,y)", setting.name, setting.value));
   return start;
 }
@@ -64,7 +70,11 @@ void apply_unplaced(Scenario& scenario, const Setting& setting) {
     scenario.start = parse_start(setting);
     return;
   }
-  std::vector<std::string> names{"scene.name", "scene.start"};
+  if (setting.name == "planner.weights") {
+    scenario.explore.planner.weights = parse_numbers(setting);
+    return;
+  }
+  std::vector<std::string> names{"scene.name", "scene.start", "planner.weights"};
   for (Option& option : list_options(scenario)) {
     names.push_back(option.name);
     if (option.name != setting.name) continue;
@@ -164,6 +174,8 @@ std::vector<std::pair<std::string, std::string>> settings_table(Scenario scenari
 std::vector<std::string> differences(Scenario wanted, Scenario here) {
   std::vector<std::string> found;
   if (wanted.scene != here.scene) found.push_back(fmt::format("scene.name = {} (here {})", wanted.scene, here.scene));
+  if (wanted.explore.planner.weights != here.explore.planner.weights)
+    found.push_back(fmt::format("planner.weights = [{}] (here [{}])", fmt::join(wanted.explore.planner.weights, ","), fmt::join(here.explore.planner.weights, ",")));
   if (wanted.start != here.start)
     found.push_back(fmt::format("scene.start = {} (here {})", fmt::join(wanted.start, ","), fmt::join(here.start, ",")));
   const std::vector<Option> left = list_options(wanted), right = list_options(here);

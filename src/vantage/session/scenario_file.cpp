@@ -91,9 +91,12 @@ std::string scenario_as_toml(Scenario scenario, bool documented) {
   if (documented) out += "# Built-in name with parameters (vantage scene --list), mesh files joined by +, or a 2D map\n";
   out += fmt::format("name = {}\n", in_quotes(scenario.scene));
   if (documented) out += "# First vantage point [m]\n";
-  std::vector<std::string> start;
-  for (const double v : scenario.start) start.push_back(real(fmt::format("{}", v)));
-  out += fmt::format("start = [{}]\n", fmt::join(start, ", "));
+  const auto list = [](const std::vector<double>& values) {
+    std::vector<std::string> texts;
+    for (const double v : values) texts.push_back(real(fmt::format("{}", v)));
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+  };
+  out += fmt::format("start = {}\n", list(scenario.start));
   std::string current = "scene";
   for (const Option& option : list_options(scenario)) {
     const std::string stage = option.name.substr(0, option.name.find('.'));
@@ -102,7 +105,9 @@ std::string scenario_as_toml(Scenario scenario, bool documented) {
     if (documented) out += fmt::format("# {} ({})\n", option.doc, option.allowed());
     out += fmt::format("{} = {}\n", option.name.substr(stage.size() + 1), toml_value(option));
   }
-  return out;
+  // The planner's table is the last one; its list of boxes is no single value.
+  if (documented) out += "# The paper's weighting w: low corner, high corner [m] and weight (0 .. 1e6) of boxes, one after the other; 1 elsewhere\n";
+  return out + fmt::format("weights = {}\n", list(scenario.explore.planner.weights));
 }
 
 }  // namespace vantage
