@@ -25,7 +25,7 @@ std::string unseen_sentence(const Json& unseen, const char* unit) {
   if (unseen.empty()) return "nothing of note";
   const double largest = number(unseen[0]["volume_m3"]);
   const std::string size = largest < 1000.0 ? fmt::format("{:.1f}", largest) : grouped(static_cast<std::int64_t>(largest));
-  return fmt::format("{} {}, the largest {} {} ({})", unseen.size(), unseen.size() == 1 ? "place" : "places", number(unseen[0]["volume_m3"]), unit,
+  return fmt::format("{} {}, the largest {} {} ({})", unseen.size(), unseen.size() == 1 ? "place" : "places", size, unit,
                      unseen[0]["reason"].get<std::string>());
 }
 

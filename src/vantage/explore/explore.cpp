@@ -148,7 +148,8 @@ struct Explorer<Dim>::Impl {
 
   void judge() {
     using End = typename Decision<Dim>::End;
-    verdict.complete = decision.end == End::nothing_can_open || decision.end == End::below_threshold;
+    constexpr double kComplete = 0.99;  // Of what can be seen, as estimated.
+    verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete;
     switch (decision.end) {
       case End::nothing_can_open: verdict.reason = "No reachable place shows anything new."; break;
       case End::below_threshold: verdict.reason = fmt::format("The best place would show less than {:g} of the seen volume, twice in a row.", options.planner.stop_volume); break;

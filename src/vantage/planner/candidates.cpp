@@ -85,7 +85,9 @@ std::vector<std::size_t> viewers(const BoundaryFace<Dim>& face, const Blocks<Dim
 template <int Dim>
 Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, double clearance) {
   const Grid<Dim>& grid = view.window();
-  const double near = 2.0 * clearance + 2.0 * grid.spacing;
+  const Index<Dim> home = grid.nearest(from);
+  const bool cramped = grid.inside(home) && static_cast<double>(view.known_distance.at(home)) < clearance;
+  const double near = cramped ? 2.0 * clearance + 2.0 * grid.spacing : 0.0;
   const auto passable = [&](std::size_t node) {
     return view.seen(node) && (static_cast<double>(view.known_distance[node]) >= clearance || (grid.position(node) - from).norm() <= near);
   };
@@ -97,7 +99,6 @@ Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<
     front.push_back(node);
   };
   // Every seen node beside the scanner starts the flood.
-  const Index<Dim> home = grid.nearest(from);
   int corners = 1;
   for (int a = 0; a < Dim; ++a) corners *= 3;
   for (int code = 0; code < corners; ++code) {

@@ -10,8 +10,8 @@
 
 namespace vantage {
 
-/// Nodes a vantage point may be moved to from `from`: seen, at `clearance` from the known surface, joined to `from` through such nodes (1, else 0). Close
-/// to `from`, where the scanner already stands, any seen node will do.
+/// Nodes a vantage point may be moved to from `from`: seen, at `clearance` from the known surface, joined to `from` through such nodes (1, else 0). Where
+/// `from` itself has less clearance, as a start may, any seen node near it will do.
 template <int Dim>
 [[nodiscard]] Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, double clearance);
 

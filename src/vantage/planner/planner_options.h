@@ -13,9 +13,9 @@ struct PlannerOptions {
 
   // Ray form: a sum of terms, each divided by its maximum over the candidates.
   double volume_weight = 1.0;       ///< Expected new volume.
-  double solid_angle_weight = 0.3;  ///< Solid angle of the shadow boundary in view.
+  double solid_angle_weight = 0.1;  ///< Solid angle of the shadow boundary in view.
   double area_weight = 0.0;         ///< Eq. (1) with line of sight and tau = 1.
-  double lambda_factor = 2.0;       ///< Opacity of the unseen, in units of the measured A/(4V) (2D: A/(pi V)); 0: optimistic.
+  double lambda_factor = 0.5;       ///< Opacity of the unseen, in units of the measured A/(4V) (2D: A/(pi V)); 0: optimistic.
   bool learned = true;              ///< Weigh faces by the learned probability to open; false: hard masks.
   std::int64_t rays = 400;          ///< First look at every candidate.
   std::int64_t refine_rays = 4000;  ///< Second look at the best (2D: a quarter of it).

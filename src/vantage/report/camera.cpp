@@ -14,7 +14,15 @@ double diagonal(const Box<3>& box) { return std::max(box.size().norm(), 1e-3); }
 
 }  // namespace
 
-Camera Camera::bird(const Box<3>& box, double azimuth, double elevation, const Frame& frame) {
+std::array<Vec<3>, 8> corners(const Box<3>& box) {
+  std::array<Vec<3>, 8> places;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    for (int a = 0; a < 3; ++a) places[corner][a] = (corner >> a & 1U) != 0 ? box.high[a] : box.low[a];
+  }
+  return places;
+}
+
+Camera Camera::bird(const Box<3>& box, std::span<const Vec<3>> outline, double azimuth, double elevation, const PictureFrame& frame) {
   const auto [sin_a, cos_a] = sin_cos(azimuth);
   const auto [sin_e, cos_e] = sin_cos(elevation);
   Camera camera;
@@ -24,22 +32,20 @@ Camera Camera::bird(const Box<3>& box, double azimuth, double elevation, const F
   camera.up_ = Vec<3>(cos_a * sin_e, sin_a * sin_e, cos_e);
   camera.eye_ = box.center() - camera.forward_ * (kEyeDistance * diagonal(box));
   camera.near_ = 0.2 * diagonal(box);
-  camera.fit(box, frame);
+  camera.fit(outline, frame);
   return camera;
 }
 
-Camera Camera::map(const Box<3>& box, const Frame& frame) {
+Camera Camera::map(const Box<3>& box, const PictureFrame& frame) {
   Camera camera;
   camera.eye_ = box.center() + Vec<3>::UnitZ() * (diagonal(box) + 1.0);
-  camera.fit(box, frame);
+  camera.fit(corners(box), frame);
   return camera;
 }
 
-void Camera::fit(const Box<3>& box, const Frame& frame) {
+void Camera::fit(std::span<const Vec<3>> outline, const PictureFrame& frame) {
   Box<2> seen;
-  for (int corner = 0; corner < 8; ++corner) {
-    Vec<3> p;
-    for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1) != 0 ? box.high[a] : box.low[a];
+  for (const Vec<3>& p : outline) {
     const Projected q = project(p);
     seen.extend(Vec<2>(q.x, q.y));
   }

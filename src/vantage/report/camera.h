@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
+#include <span>
+
 #include "vantage/geometry/box.h"
 
 namespace vantage {
@@ -11,19 +14,22 @@ struct Projected {
 };
 
 /// Largest size of a picture [pixels].
-struct Frame {
+struct PictureFrame {
   int width, height;
   double margin;  ///< Kept free around the contents.
 };
 
+/// The eight corners.
+[[nodiscard]] std::array<Vec<3>, 8> corners(const Box<3>& box);
+
 /// Looks at a box so that it fills the frame; the picture takes the contents' own proportions.
 class Camera {
  public:
-  /// Perspective bird's view with a long lens. `azimuth` is the compass direction of the look, counter-clockwise from the first axis; `elevation` how far it
-  /// looks down [rad].
-  static Camera bird(const Box<3>& box, double azimuth, double elevation, const Frame& frame);
+  /// Perspective bird's view with a long lens, such that all of `outline`, places in the box, just fits. `azimuth` is the compass direction of the
+  /// look, counter-clockwise from the first axis; `elevation` how far it looks down [rad].
+  static Camera bird(const Box<3>& box, std::span<const Vec<3>> outline, double azimuth, double elevation, const PictureFrame& frame);
   /// Orthographic, straight down, first axis to the right.
-  static Camera map(const Box<3>& box, const Frame& frame);
+  static Camera map(const Box<3>& box, const PictureFrame& frame);
 
   [[nodiscard]] Projected project(const Vec<3>& p) const;
   /// Along the line of sight, from the depth [m].
@@ -42,7 +48,7 @@ class Camera {
   [[nodiscard]] int height() const { return height_; }
 
  private:
-  void fit(const Box<3>& box, const Frame& frame);
+  void fit(std::span<const Vec<3>> outline, const PictureFrame& frame);
 
   Vec<3> eye_ = Vec<3>::Zero(), right_ = Vec<3>::UnitX(), up_ = Vec<3>::UnitY(), forward_ = -Vec<3>::UnitZ();
   double near_ = 0.0, zoom_ = 1.0;

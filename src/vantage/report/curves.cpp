@@ -78,22 +78,24 @@ std::string grid(const Chart& chart, const Axes& axes) {
   std::string svg;
   if (chart.band_high > chart.band_low) {
     const double top = axes.py(chart.band_high), bottom = std::max(axes.py(chart.band_low), top + 1.0);
-    svg += fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", kLeft, top, kWidth - kLeft - kRight, bottom - top);
+    svg += fmt::format(R"(<rect class="band" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", kLeft, top, kWidth - kLeft - kRight,
+                       bottom - top);
   }
   // Many decades: a label at every second or third.
   const std::size_t skip = (axes.y_ticks.size() + 5) / 6;
   for (std::size_t i = 0; i < axes.y_ticks.size(); i += skip) {
     const double y = axes.py(axes.y_ticks[i]);
-    svg += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", kLeft, y, kWidth - kRight);
-    svg += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" dy=\".35em\" text-anchor=\"end\">{}</text>", kLeft - 8.0, y, rounded(axes.y_ticks[i]));
+    svg += fmt::format(R"(<path class="grid" d="M{:.1f} {:.1f}H{:.1f}"/>)", kLeft, y, kWidth - kRight);
+    svg +=
+        fmt::format(R"(<text class="tick" x="{:.1f}" y="{:.1f}" dy=".35em" text-anchor="end">{}</text>)", kLeft - 8.0, y, rounded(axes.y_ticks[i]));
   }
   for (const double tick : axes.x_ticks) {
     const double x = axes.px(tick);
-    svg += fmt::format("<path class=\"axis\" d=\"M{0:.1f} {1:.1f}v5\"/><text class=\"tick\" x=\"{0:.1f}\" y=\"{2:.1f}\" text-anchor=\"middle\">{3}</text>", x,
+    svg += fmt::format(R"(<path class="axis" d="M{0:.1f} {1:.1f}v5"/><text class="tick" x="{0:.1f}" y="{2:.1f}" text-anchor="middle">{3}</text>)", x,
                        kHeight - kBottom, kHeight - kBottom + 20.0, rounded(tick));
   }
-  svg += fmt::format("<path class=\"axis\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", kLeft, kHeight - kBottom, kWidth - kRight);
-  svg += fmt::format("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", 0.5 * (kLeft + kWidth - kRight), kHeight - 6.0,
+  svg += fmt::format(R"(<path class="axis" d="M{:.1f} {:.1f}H{:.1f}"/>)", kLeft, kHeight - kBottom, kWidth - kRight);
+  svg += fmt::format(R"(<text class="label" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", 0.5 * (kLeft + kWidth - kRight), kHeight - 6.0,
                      escaped(chart.x_label));
   return svg;
 }
@@ -108,13 +110,13 @@ std::string drawn(const Chart& chart, const Curve& curve, const Axes& axes) {
     if (line.empty()) first = x;
     last = x;
     line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x, y);
-    dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{} {}: {}</title></circle>", x, y, sparse ? "3" : "2", escaped(chart.x_label),
-                        rounded(curve.x[i]), escaped(quantity(curve.y[i], chart.unit)));
+    dots += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{}"><title>{} {}: {}</title></circle>)", x, y, sparse ? "3" : "2",
+                        escaped(chart.x_label), rounded(curve.x[i]), escaped(quantity(curve.y[i], chart.unit)));
   }
   if (line.empty()) return {};
-  std::string svg = fmt::format("<g class=\"curve\" style=\"--c:{}\">", curve.colour);
+  std::string svg = fmt::format(R"(<g class="curve" style="--c:{}">)", curve.colour);
   if (curve.style == Curve::Style::area) {
-    svg += fmt::format("<path class=\"under\" d=\"{}L{:.1f} {:.1f}H{:.1f}Z\"/>", line, last, kHeight - kBottom, first);
+    svg += fmt::format(R"(<path class="under" d="{}L{:.1f} {:.1f}H{:.1f}Z"/>)", line, last, kHeight - kBottom, first);
   }
   if (curve.style != Curve::Style::dots) svg += "<path d=\"" + line + "\"/>";
   return svg + dots + "</g>";
@@ -134,11 +136,11 @@ std::string labels(const Chart& chart, const Axes& axes) {
       break;
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
+  std::ranges::stable_sort(all, [](const Label& a, const Label& b) { return a.y < b.y; });
   for (std::size_t i = 1; i < all.size(); ++i) all[i].y = std::max(all[i].y, all[i - 1].y + 17.0);
   std::string svg;
   for (const Label& label : all) {
-    svg += fmt::format("<text class=\"name\" style=\"--c:{}\" x=\"{:.1f}\" y=\"{:.1f}\" dy=\".35em\">{}</text>", label.curve->colour, kWidth - kRight + 10.0,
+    svg += fmt::format(R"(<text class="name" style="--c:{}" x="{:.1f}" y="{:.1f}" dy=".35em">{}</text>)", label.curve->colour, kWidth - kRight + 10.0,
                        label.y, escaped(label.curve->name));
   }
   return svg;
@@ -167,8 +169,9 @@ std::vector<double> round_ticks(double low, double high, int count) {
     for (int k = 0; k < 60 && 1.0 / (parts * (k % 3 == 1 ? 2.5 : 2.0)) >= least; ++k) parts *= k % 3 == 1 ? 2.5 : 2.0;
   }
   std::vector<double> ticks;
-  const double first = std::floor(low / step * parts + 1e-9), last = std::ceil(high / step * parts - 1e-9);
-  for (double i = first; i <= std::max(last, first + 1.0); i += 1.0) ticks.push_back(i * step / parts);
+  const double first = std::floor(low / step * parts + 1e-9), last = std::max(std::ceil(high / step * parts - 1e-9), first + 1.0);
+  const int steps = static_cast<int>(std::min(last - first, 1000.0));
+  for (int i = 0; i <= steps; ++i) ticks.push_back((first + i) * step / parts);
   return ticks;
 }
 

@@ -17,7 +17,7 @@ struct Panel {
 
 /// One or several pictures under one title. Texts are plain and are escaped when written; `legend` is HTML.
 struct Figure {
-  std::string id;       ///< Anchor.
+  std::string id;  ///< Anchor.
   std::string title;
   std::string caption;  ///< What is to be seen, in a sentence.
   std::string legend;

@@ -38,8 +38,8 @@ std::string figures_html(const std::vector<Figure>& figures) {
   std::string html;
   std::size_t next = 0;
   for (const Figure& figure : figures) {
-    html += fmt::format("<figure class=\"plate{}\" id=\"{}\">\n<h2>{}</h2>\n<div class=\"panels\">\n", figure.panels.size() > 1 ? " many" : "", figure.id,
-                        escaped(figure.title));
+    html += fmt::format("<figure class=\"plate{}\" id=\"{}\">\n<h2>{}</h2>\n<div class=\"panels\">\n", figure.panels.size() > 1 ? " many" : "",
+                        figure.id, escaped(figure.title));
     for (const Panel& panel : figure.panels) html += panel_html(panel, data[next++]);
     html += fmt::format("</div>\n<figcaption>{}<div class=\"legend\">{}</div></figcaption>\n</figure>\n", escaped(figure.caption), figure.legend);
   }

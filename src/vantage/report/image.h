@@ -33,9 +33,13 @@ struct Image {
 
   Image() = default;
   Image(int w, int h) : width(w), height(h), rgba(std::size_t{4} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0) {}
-  [[nodiscard]] std::uint8_t* pixel(int x, int y) { return &rgba[std::size_t{4} * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))]; }
-  [[nodiscard]] const std::uint8_t* pixel(int x, int y) const { return const_cast<Image*>(this)->pixel(x, y); }
+  [[nodiscard]] std::uint8_t* pixel(int x, int y) { return &rgba[offset(x, y)]; }
+  [[nodiscard]] const std::uint8_t* pixel(int x, int y) const { return &rgba[offset(x, y)]; }
   void set(int x, int y, Rgb colour, std::uint8_t alpha = 255);
+  /// Of a pixel's first byte.
+  [[nodiscard]] std::size_t offset(int x, int y) const {
+    return std::size_t{4} * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  }
 };
 
 /// Lays `top` over `base`; both have the same size.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "vantage/base/parallel.h"
@@ -14,8 +15,8 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kPanels = 9;
-constexpr double kDarkest = 0.16;    ///< Of the colour map, so that small E is told from none.
-constexpr int kSingleReach = 3;      ///< Half a lone node's square [pixels].
+constexpr double kDarkest = 0.16;  ///< Of the colour map, so that small E is told from none.
+constexpr int kSingleReach = 3;    ///< Half a lone node's square [pixels].
 
 float value_at(const Field<2, float>& field, int i, int j) {
   const Index<2> local(i, j);
@@ -87,12 +88,12 @@ std::vector<Vec<2>> on_map(const std::vector<Vec<Dim>>& places, const Camera& ca
 
 template <int Dim>
 std::string height_text(const Snapshot<Dim>& snapshot) {
-  const std::string texts[] = {"", fmt::format(", cut at {:.1f}\u00a0m", snapshot.height)};
+  const std::array<std::string, 2> texts{"", fmt::format(", cut at {:.1f}\u00a0m", snapshot.height)};
   return texts[Dim - 2];
 }
 
 template <int Dim>
-Panel metric_panel(const Snapshot<Dim>& snapshot, const Frame& frame) {
+Panel metric_panel(const Snapshot<Dim>& snapshot, const PictureFrame& frame) {
   const Camera camera = Camera::map(map_box(snapshot.state.window), frame);
   Panel panel{state_map(snapshot.state, camera, kDarkStates), {}, {}, {}};
   lay_over(panel.image, metric_map(snapshot.metric, snapshot.state, camera));
@@ -100,7 +101,7 @@ Panel metric_panel(const Snapshot<Dim>& snapshot, const Frame& frame) {
   const std::string after = fmt::format("After scan {}{}", snapshot.step, height_text(snapshot));
   if (snapshot.has_next) {
     panel.overlay += cross_overlay(on_map<Dim>({snapshot.next}, camera)[0]);
-    panel.caption = fmt::format("{}: best place {}, E = {}", after, place_text(snapshot.next), number(static_cast<double>(largest(snapshot.metric))));
+    panel.caption = fmt::format("{}: best place {}", after, place_text(snapshot.next));
   } else {
     panel.caption = after + ": nothing left to visit";
   }
@@ -152,21 +153,23 @@ template <int Dim>
 std::vector<const Snapshot<Dim>*> chosen(const std::vector<Snapshot<Dim>>& snapshots) {
   std::vector<const Snapshot<Dim>*> picked;
   const std::size_t count = std::min(kPanels, snapshots.size());
+  picked.reserve(count);
   for (std::size_t k = 0; k < count; ++k) picked.push_back(&snapshots[count == 1 ? 0 : k * (snapshots.size() - 1) / (count - 1)]);
   return picked;
 }
 
 template <int Dim>
-Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const Frame& frame) {
+Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const PictureFrame& frame) {
   Figure figure;
   figure.id = "metric";
   figure.title = "Where it pays to look next";
   figure.caption =
       "The visibility metric E on cuts through the place, each scaled to its own maximum: the brighter, the more a scan from there would reveal. "
       "The cross is where the scanner went next.";
-  figure.legend = legend_bar(css_gradient(ColourMap::inferno, kDarkest, 1.0), "E small", "large") + legend_entry("diamond", "", "vantage points so far") +
-                  legend_entry("cross", "", "next") + legend_entry("area", css(kDarkStates.obstacle), "obstacle") +
-                  legend_entry("hatch", css(kDarkStates.unseen), "unseen") + legend_entry("area", css(kDarkStates.seen), "seen, E not asked");
+  figure.legend = legend_bar(css_gradient(ColourMap::inferno, kDarkest, 1.0), "E small", "large") +
+                  legend_entry("diamond", "", "vantage points so far") + legend_entry("cross", "", "next") +
+                  legend_entry("area", css(kDarkStates.obstacle), "obstacle") + legend_entry("hatch", css(kDarkStates.unseen), "unseen") +
+                  legend_entry("area", css(kDarkStates.seen), "seen, E not asked");
   for (const Snapshot<Dim>* snapshot : chosen(snapshots)) {
     if (snapshot->state.window.size() > 0) figure.panels.push_back(metric_panel(*snapshot, frame));
   }
@@ -182,8 +185,8 @@ std::string place_text(const Vec<Dim>& p) {
 
 template std::vector<const Snapshot<2>*> chosen(const std::vector<Snapshot<2>>&);
 template std::vector<const Snapshot<3>*> chosen(const std::vector<Snapshot<3>>&);
-template Figure metric_figure(const std::vector<Snapshot<2>>&, const Frame&);
-template Figure metric_figure(const std::vector<Snapshot<3>>&, const Frame&);
+template Figure metric_figure(const std::vector<Snapshot<2>>&, const PictureFrame&);
+template Figure metric_figure(const std::vector<Snapshot<3>>&, const PictureFrame&);
 template std::string place_text<2>(const Vec<2>&);
 template std::string place_text<3>(const Vec<3>&);
 

@@ -14,8 +14,8 @@ inline constexpr StateColours kLightStates{{249, 250, 252}, {43, 52, 66}, {205, 
 inline constexpr StateColours kDarkStates{{38, 43, 56}, {150, 164, 189}, {13, 17, 26}, {27, 34, 50}};
 
 /// Frames of the maps that stand alone and of the panels of several, in a report whose pictures are so wide [pixels].
-[[nodiscard]] constexpr Frame map_frame(int width) { return {width, width * 11 / 14, 36.0}; }
-[[nodiscard]] constexpr Frame panel_frame(int width) { return {width * 16 / 35, width * 16 / 35, 0.0}; }
+[[nodiscard]] constexpr PictureFrame map_frame(int width) { return {width, width * 11 / 14, 36.0}; }
+[[nodiscard]] constexpr PictureFrame panel_frame(int width) { return {width * 16 / 35, width * 16 / 35, 0.0}; }
 
 /// A flat lattice as a box of cells around its nodes; z = 0.
 [[nodiscard]] Box<3> map_box(const Grid<2>& window);
@@ -29,7 +29,7 @@ template <int Dim>
 [[nodiscard]] std::vector<const Snapshot<Dim>*> chosen(const std::vector<Snapshot<Dim>>& snapshots);
 /// Fig. 2 of the paper, lower row: E on cuts through the place, with the vantage points so far and the next.
 template <int Dim>
-[[nodiscard]] Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const Frame& frame);
+[[nodiscard]] Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const PictureFrame& frame);
 /// `12.3, 5.0, 2.0`.
 template <int Dim>
 [[nodiscard]] std::string place_text(const Vec<Dim>& p);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "vantage/report/overlay.h"
 
 namespace vantage {
@@ -10,6 +12,7 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kMostPoints = 2'000'000;
+constexpr double kTagGap = 28.0;  ///< Between numbers of unseen regions; of two nearer ones the larger keeps its own [pixels].
 
 }  // namespace
 
@@ -46,11 +49,17 @@ std::string journey_overlay(const ReportInput<Dim>& input, const Camera& camera)
 template <int Dim>
 std::string unseen_overlay(const ReportInput<Dim>& input, const Camera& camera) {
   std::string tags;
-  for (std::size_t i = std::min(kTaggedRegions, input.verdict.unseen.size()); i-- > 0;) {
+  std::vector<Vec<2>> taken;
+  for (std::size_t i = 0; i < std::min(kTaggedRegions, input.verdict.unseen.size()); ++i) {
     const Box<Dim> box = input.verdict.unseen[i].box.intersection(input.domain);
     if (box.empty()) continue;
     const std::vector<Vec<Dim>> centre{box.center()};
-    for (const Vec<2>& pixel : on_picture<Dim>(centre, camera)) tags += tag_overlay(pixel, fmt::format("{}", i + 1));
+    for (const Vec<2>& pixel : on_picture<Dim>(centre, camera)) {
+      const auto near = [&pixel](const Vec<2>& other) { return (other - pixel).norm() < kTagGap; };
+      if (std::any_of(taken.begin(), taken.end(), near)) continue;
+      taken.push_back(pixel);
+      tags += tag_overlay(pixel, fmt::format("{}", i + 1));
+    }
   }
   return tags;
 }
@@ -69,21 +78,21 @@ std::size_t point_stride(const ReportInput<Dim>& input) {
 
 std::string legend_entry(const std::string& kind, const std::string& colour, const std::string& text) {
   const std::string style = colour.empty() ? std::string() : fmt::format(" style=\"--c:{}\"", colour);
-  return fmt::format("<span class=\"key\"><i class=\"{}\"{}></i>{}</span>", kind, style, text);
+  return fmt::format(R"(<span class="key"><i class="{}"{}></i>{}</span>)", kind, style, text);
 }
 
 std::string legend_bar(const std::string& gradient, const std::string& low, const std::string& high) {
-  return fmt::format("<span class=\"key\">{}<i class=\"bar\" style=\"background:{}\"></i>{}</span>", low, gradient, high);
+  return fmt::format(R"(<span class="key">{}<i class="bar" style="background:{}"></i>{}</span>)", low, gradient, high);
 }
 
 std::string journey_legend() { return legend_entry("dot", "", "vantage point with the number of its scan") + legend_entry("line", "", "path"); }
 
-#define VANTAGE_INSTANTIATE(Dim)                                                                    \
-  template Vec<3> in_space<Dim>(const Vec<Dim>&);                                                   \
-  template std::vector<Vec<2>> on_picture<Dim>(std::span<const Vec<Dim>>, const Camera&);           \
-  template std::string journey_overlay(const ReportInput<Dim>&, const Camera&);                     \
-  template std::string unseen_overlay(const ReportInput<Dim>&, const Camera&);                      \
-  template std::size_t point_count(const ReportInput<Dim>&);                                        \
+#define VANTAGE_INSTANTIATE(Dim)                                                          \
+  template Vec<3> in_space<Dim>(const Vec<Dim>&);                                         \
+  template std::vector<Vec<2>> on_picture<Dim>(std::span<const Vec<Dim>>, const Camera&); \
+  template std::string journey_overlay(const ReportInput<Dim>&, const Camera&);           \
+  template std::string unseen_overlay(const ReportInput<Dim>&, const Camera&);            \
+  template std::size_t point_count(const ReportInput<Dim>&);                              \
   template std::size_t point_stride(const ReportInput<Dim>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

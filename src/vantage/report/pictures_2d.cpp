@@ -44,13 +44,15 @@ Figure map_figure(const ReportInput<2>& input, const Camera& camera) {
   lay_over(image, resolved(raster, {0.0}));
   Figure figure{"surface", "The map", {}, {}, {}};
   figure.caption = fmt::format(
-      "What was seen, what stays unseen (numbers as in the table below), and the surface rebuilt from the points: {} segments and {} single points; no "
+      "What was seen, what stays unseen (numbers as in the table below), and the surface rebuilt from the points: {} segments and {} single points; "
+      "no "
       "measured point is farther than {} from them.",
       number(input.surface.fits), number(input.surface.loose_points), quantity(input.surface.data_to_surface, "m"));
   figure.legend = legend_entry("line", css(kSurface), "surface") + legend_entry("dot", css(kLoose), "single point") +
                   legend_entry("area", css(kLightStates.seen), "seen") + legend_entry("hatch", css(kLightStates.unseen), "unseen") +
                   legend_entry("area", css(mix(kLightStates.obstacle, kLightStates.seen, 0.55)), "obstacle");
-  figure.panels.push_back({std::move(image), unseen_overlay(input, camera) + map_scale(camera), "Map of seen and unseen space with the rebuilt surface.", {}});
+  figure.panels.push_back(
+      {std::move(image), unseen_overlay(input, camera) + map_scale(camera), "Map of seen and unseen space with the rebuilt surface.", {}});
   return figure;
 }
 
@@ -66,11 +68,13 @@ Figure path_figure(const ReportInput<2>& input, const Camera& camera) {
   for (const StepRecord<2>& step : input.steps) length += step.path_length;
   Figure figure{"path", "The scans and the path", {}, {}, {}};
   figure.caption = fmt::format("{} points of {}, coloured by the scan that measured them, and the vantage points in their order: {} of path in all.",
-                               number(static_cast<std::int64_t>(point_count(input))), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"),
-                               quantity(length, "m"));
+                               number(static_cast<std::int64_t>(point_count(input))),
+                               counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), quantity(length, "m"));
   figure.legend = legend_bar(css_gradient(ColourMap::viridis, 0.0, 0.9), "first scan", "last scan") + journey_legend();
-  figure.panels.push_back({std::move(image), journey_overlay(input, camera) + map_scale(camera),
-                           "Map with the measured points, the numbered vantage points and the path through them.", {}});
+  figure.panels.push_back({std::move(image),
+                           journey_overlay(input, camera) + map_scale(camera),
+                           "Map with the measured points, the numbered vantage points and the path through them.",
+                           {}});
   return figure;
 }
 

@@ -17,27 +17,53 @@ namespace {
 
 constexpr double kLowColour = 0.2, kHighColour = 1.0;  ///< Part of viridis that reads on light and dark grounds.
 
-/// What the pictures frame: all that was met and visited inside the domain.
-Box<3> contents(const ReportInput<3>& input) {
-  Box<3> box;
+/// Calls `body(box)` for all that was met and visited inside the domain.
+template <class Body>
+void for_contents(const ReportInput<3>& input, const Body& body) {
+  const auto place = [&](const Vec<3>& p) {
+    if (input.domain.contains(p)) body(Box<3>{p, p});
+  };
   for (const Patch<3>& patch : input.patches) {
     const Box<3> part = patch.bounds().intersection(input.domain);
-    if (!part.empty()) box.extend(part);
+    if (!part.empty()) body(part);
   }
   for (const auto& points : input.scan_points) {
-    for (const Vec<3>& p : points) {
-      if (input.domain.contains(p)) box.extend(p);
-    }
+    for (const Vec<3>& p : points) place(p);
   }
-  for (const StepRecord<3>& step : input.steps) box.extend(step.vantage);
-  box = box.intersection(input.domain);
+  for (const StepRecord<3>& step : input.steps) place(step.vantage);
+}
+
+/// What the pictures frame.
+Box<3> contents(const ReportInput<3>& input) {
+  Box<3> box;
+  for_contents(input, [&box](const Box<3>& part) { box.extend(part); });
   return box.empty() ? input.domain : box;
 }
 
+/// Corners of the contents, column by column: closer to them than the corners of the whole box.
+std::vector<Vec<3>> outline(const ReportInput<3>& input, const Box<3>& box) {
+  constexpr int kColumns = 12;
+  std::vector<Box<3>> columns(kColumns * kColumns);
+  const Vec<3> size = box.size().cwiseMax(1e-9);
+  for_contents(input, [&](const Box<3>& part) {
+    const Vec<3> place = (part.center() - box.low).cwiseQuotient(size) * kColumns;
+    const int x = std::clamp(static_cast<int>(place.x()), 0, kColumns - 1), y = std::clamp(static_cast<int>(place.y()), 0, kColumns - 1);
+    columns[static_cast<std::size_t>(y * kColumns + x)].extend(part);
+  });
+  std::vector<Vec<3>> places;
+  for (const Box<3>& column : columns) {
+    if (column.empty()) continue;
+    for (const Vec<3>& p : corners(column)) places.push_back(p);
+  }
+  if (places.empty()) places.assign(1, box.center());
+  return places;
+}
+
 /// Looks along the longer side, from the south-west.
-Camera bird(const Box<3>& box, int width) {
+Camera bird(const ReportInput<3>& input, const Box<3>& box) {
+  const int width = input.picture_width;
   const double azimuth = box.size().x() >= box.size().y() ? 66.0 : 24.0;
-  return Camera::bird(box, radians(azimuth), radians(38.0), {width, width * 7 / 10, 28.0});
+  return Camera::bird(box, outline(input, box), radians(azimuth), radians(38.0), {width, width * 7 / 10, 28.0});
 }
 
 /// Heights that leave out one in a hundred points at either end.
@@ -51,10 +77,12 @@ std::pair<double, double> height_range(const ReportInput<3>& input) {
     }
   }
   if (heights.empty()) return {input.domain.low.z(), input.domain.high.z()};
-  std::sort(heights.begin(), heights.end());
+  std::ranges::sort(heights);
   const double low = heights[heights.size() / 100], high = heights[heights.size() - 1 - heights.size() / 100];
   return {low, std::max(high, low + 1e-3)};
 }
+
+std::string height_text(double z) { return fmt::format("{:.1f}\u00a0m", std::abs(z) < 0.05 ? 0.0 : z); }
 
 double point_radius(const ReportInput<3>& input, const Camera& camera) {
   const double drawn = static_cast<double>(point_count(input) / point_stride(input)) + 1.0;
@@ -73,20 +101,23 @@ Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
   const std::size_t stride = point_stride(input);
   const std::string share = stride > 1 ? fmt::format(" One in {} is drawn.", stride) : std::string();
   figure.caption = fmt::format("{} points of {}, coloured by height, with the vantage points and the path through them.{}",
-                               number(static_cast<std::int64_t>(point_count(input))), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
-  figure.legend = legend_bar(css_gradient(ColourMap::viridis, kLowColour, kHighColour), quantity(low, "m"), quantity(high, "m")) + journey_legend();
-  figure.panels.push_back({resolved(raster, {0.8}), journey_overlay(input, camera),
-                           fmt::format("Bird's view of the measured points, height {} to {}.", quantity(low, "m"), quantity(high, "m")), {}});
+                               number(static_cast<std::int64_t>(point_count(input))),
+                               counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
+  figure.legend = legend_bar(css_gradient(ColourMap::viridis, kLowColour, kHighColour), height_text(low), height_text(high)) + journey_legend();
+  figure.panels.push_back({resolved(raster, {0.8}),
+                           journey_overlay(input, camera),
+                           fmt::format("Bird's view of the measured points, height {} to {}.", height_text(low), height_text(high)),
+                           {}});
   return figure;
 }
 
 Figure surface_figure(const ReportInput<3>& input, const Camera& camera) {
   Raster raster(camera);
-  draw_patches(raster, input.patches, input.domain, Colours::by_kind);
+  draw_patches(raster, input.patches, {input.domain, height_range(input), Colours::by_kind});
   Figure figure{"surface", "The surface rebuilt from the points", {}, {}, {}};
-  figure.caption = fmt::format("{} flat pieces, {} thin ones and {} single points; no measured point is farther than {} from them.",
-                               number(input.surface.fits), number(input.surface.segments), number(input.surface.loose_points),
-                               quantity(input.surface.data_to_surface, "m"));
+  figure.caption =
+      fmt::format("{} flat pieces, {} thin ones and {} single points; no measured point is farther than {} from them.", number(input.surface.fits),
+                  number(input.surface.segments), number(input.surface.loose_points), quantity(input.surface.data_to_surface, "m"));
   figure.legend = legend_entry("area", css(kClay), "flat piece") + legend_entry("line", css(kWire), "thin piece (wire, pole, edge)") +
                   legend_entry("dot", css(kLoose), "single point");
   figure.panels.push_back({resolved(raster, {1.0}), {}, "Bird's view of the reconstructed surface, shaded.", {}});
@@ -110,41 +141,44 @@ Image unseen_image(const Raster& surfaces, const Raster& unseen) {
 
 Figure unseen_figure(const ReportInput<3>& input, const Camera& camera) {
   Raster surfaces(camera), unseen(camera);
-  draw_patches(surfaces, input.patches, input.domain, Colours::clay);
+  draw_patches(surfaces, input.patches, {input.domain, height_range(input), Colours::clay});
   draw_unseen(unseen, input.state);
   Figure figure{"unseen", "What stays unseen", {}, {}, {}};
   figure.caption =
       "The border between the space that was seen and the space that was not; it shows through the surfaces. Numbers are those of the table below.";
   figure.legend = legend_entry("area", css(kUnseenColour), "unseen space") + legend_entry("area", css(kClay), "surface");
-  figure.panels.push_back({unseen_image(surfaces, unseen), unseen_overlay(input, camera),
+  figure.panels.push_back({unseen_image(surfaces, unseen),
+                           unseen_overlay(input, camera),
                            fmt::format("Bird's view of the unseen space, {} listed.",
                                        counted(static_cast<std::int64_t>(input.verdict.unseen.size()), "region", "regions")),
                            {}});
   return figure;
 }
 
-/// Height of the plan's cut: that of the median vantage point.
+/// Height of the plan's cut: that of the lowest vantage point, so that it runs through walls even where the scanner flies.
 double plan_height(const ReportInput<3>& input) {
-  std::vector<double> heights;
-  for (const StepRecord<3>& step : input.steps) heights.push_back(step.vantage.z());
-  if (heights.empty()) return kInfinity;
-  std::sort(heights.begin(), heights.end());
-  return heights[heights.size() / 2];
+  double lowest = kInfinity;
+  for (const StepRecord<3>& step : input.steps) lowest = std::min(lowest, step.vantage.z());
+  return lowest;
 }
 
 Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
   const Camera camera = Camera::map(box, map_frame(input.picture_width));
   const double cut = plan_height(input);
   Raster raster(camera);
-  draw_plan(raster, input.patches, input.domain, cut);
+  // Even at the floor, single points are as light as the flat pieces around them.
+  const double floor = height_range(input).first;
+  draw_plan(raster, input.patches, {input.domain, {floor - 1.0, floor}, Colours::clay}, {cut, 0.5 * input.state.window.spacing});
   double length = 0.0;
   for (const StepRecord<3>& step : input.steps) length += step.path_length;
   Figure figure{"path", "The path", {}, {}, {}};
-  figure.caption = fmt::format("Plan, cut at a height of {1}, with the vantage points in their order: {0} of path in all.",
-                               quantity(length, "m"), quantity(cut, "m"));
+  figure.caption = fmt::format("Plan, cut at a height of {1}, with the vantage points in their order: {0} of path in all.", quantity(length, "m"),
+                               height_text(cut));
   figure.legend = journey_legend() + legend_entry("line", css(kSection), "wall at the cut");
-  figure.panels.push_back({resolved(raster, {0.0}), journey_overlay(input, camera) + scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
-                           "Plan of the place with the numbered vantage points and the path through them.", {}});
+  figure.panels.push_back({resolved(raster, {0.0}),
+                           journey_overlay(input, camera) + scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
+                           "Plan of the place with the numbered vantage points and the path through them.",
+                           {}});
   return figure;
 }
 
@@ -155,7 +189,7 @@ std::vector<Figure> pictures(const ReportInput<3>& input) {
   std::vector<Figure> figures;
   if (input.domain.empty()) return figures;
   const Box<3> box = contents(input);
-  const Camera camera = bird(box, input.picture_width);
+  const Camera camera = bird(input, box);
   if (point_count(input) > 0) figures.push_back(points_figure(input, camera));
   if (!input.patches.empty()) figures.push_back(surface_figure(input, camera));
   if (input.state.window.size() > 0) figures.push_back(unseen_figure(input, camera));

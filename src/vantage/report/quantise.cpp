@@ -21,7 +21,8 @@ struct Bin {
 
 std::uint32_t pack(const std::uint8_t* p) {
   if (p[3] == 0) return 0;  // All invisible pixels are one.
-  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8 | static_cast<std::uint32_t>(p[2]) << 16 | static_cast<std::uint32_t>(p[3]) << 24;
+  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8 | static_cast<std::uint32_t>(p[2]) << 16 |
+         static_cast<std::uint32_t>(p[3]) << 24;
 }
 
 std::array<std::uint8_t, 4> coarse(std::uint32_t c) {
@@ -32,7 +33,8 @@ std::array<std::uint8_t, 4> coarse(std::uint32_t c) {
 
 std::size_t bin_of(std::uint32_t c) {
   const auto q = coarse(c);
-  return static_cast<std::size_t>(q[0]) | static_cast<std::size_t>(q[1]) << 5 | static_cast<std::size_t>(q[2]) << 10 | static_cast<std::size_t>(q[3]) << 15;
+  return static_cast<std::size_t>(q[0]) | static_cast<std::size_t>(q[1]) << 5 | static_cast<std::size_t>(q[2]) << 10 |
+         static_cast<std::size_t>(q[3]) << 15;
 }
 
 /// A run of bins that will become one colour.
@@ -82,7 +84,7 @@ std::size_t cut(std::vector<Bin>& bins, const Cell& cell) {
 std::vector<Cell> median_cut(std::vector<Bin>& bins) {
   std::vector<Cell> cells{measured(bins, 0, bins.size())};
   while (cells.size() < kColours) {
-    const auto most = std::max_element(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.weight < b.weight; });
+    const auto most = std::ranges::max_element(cells, [](const Cell& a, const Cell& b) { return a.weight < b.weight; });
     if (most->weight == 0) break;
     const Cell whole = *most;
     const std::size_t middle = cut(bins, whole);
@@ -146,8 +148,8 @@ IndexedImage quantised(const Image& image) {
   for (const Cell& cell : cells) {
     for (std::size_t i = cell.begin; i < cell.end; ++i) {
       const auto& q = bins[i].coarse;
-      index[static_cast<std::size_t>(q[0]) | static_cast<std::size_t>(q[1]) << 5 | static_cast<std::size_t>(q[2]) << 10 | static_cast<std::size_t>(q[3]) << 15] =
-          static_cast<std::uint8_t>(result.palette.size());
+      index[static_cast<std::size_t>(q[0]) | static_cast<std::size_t>(q[1]) << 5 | static_cast<std::size_t>(q[2]) << 10 |
+            static_cast<std::size_t>(q[3]) << 15] = static_cast<std::uint8_t>(result.palette.size());
     }
     result.palette.push_back(mean(bins, cell));
   }

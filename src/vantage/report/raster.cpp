@@ -81,7 +81,7 @@ void Raster::segment(const Vec<3>& a, const Vec<3>& b, double width, Rgb colour)
 }
 
 void Raster::polygon(std::span<const Vec<3>> corners, Rgb colour) {
-  if (corners.size() < 3 || !std::all_of(corners.begin(), corners.end(), [this](const Vec<3>& p) { return camera_.in_front(p); })) return;
+  if (corners.size() < 3 || !std::ranges::all_of(corners, [this](const Vec<3>& p) { return camera_.in_front(p); })) return;
   const Projected first = sample(corners[0]);
   for (std::size_t k = 1; k + 1 < corners.size(); ++k) triangle(first, sample(corners[k]), sample(corners[k + 1]), colour);
   Vec<3> centre = Vec<3>::Zero();

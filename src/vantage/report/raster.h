@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-/// Software rasteriser with a depth buffer of 2 x 2 samples a pixel. A sample keeps the nearest surface (of equally near ones the darker colour value),
-/// so that the picture does not depend on the order of the calls: all drawing may happen on many threads at once.
+/// Software rasteriser with a depth buffer of 2 x 2 samples a pixel. A sample keeps the nearest surface (of equally near ones the darker colour
+/// value), so that the picture does not depend on the order of the calls: all drawing may happen on many threads at once.
 class Raster {
  public:
   static constexpr int kSamples = 2;  ///< Along each side of a pixel.
@@ -32,7 +32,9 @@ class Raster {
   [[nodiscard]] Rgb colour(int x, int y) const;
 
  private:
-  [[nodiscard]] const std::uint64_t& at(int x, int y) const { return cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)]; }
+  [[nodiscard]] const std::uint64_t& at(int x, int y) const {
+    return cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  }
   [[nodiscard]] Projected sample(const Vec<3>& p) const;
   void put(int x, int y, double depth, Rgb colour);
   void triangle(const Projected& a, const Projected& b, const Projected& c, Rgb colour);

@@ -28,7 +28,8 @@ TEST(Png, FewColoursComeBackExactly) {
   Image image(37, 21);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      if ((x + y) % 3 != 0) image.set(x, y, {static_cast<std::uint8_t>(7 * (x % 16)), static_cast<std::uint8_t>(9 * (y % 8)), 77}, x % 2 == 0 ? 255 : 128);
+      if ((x + y) % 3 != 0)
+        image.set(x, y, {static_cast<std::uint8_t>(7 * (x % 16)), static_cast<std::uint8_t>(9 * (y % 8)), 77}, x % 2 == 0 ? 255 : 128);
     }
   }
   EXPECT_EQ(decoded(png(image)).rgba, image.rgba);
@@ -37,7 +38,8 @@ TEST(Png, FewColoursComeBackExactly) {
 TEST(Png, ManyColoursComeBackNearly) {
   Image image(256, 256);
   for (int y = 0; y < 256; ++y) {
-    for (int x = 0; x < 256; ++x) image.set(x, y, {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), static_cast<std::uint8_t>((x + y) / 2)});
+    for (int x = 0; x < 256; ++x)
+      image.set(x, y, {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), static_cast<std::uint8_t>((x + y) / 2)});
   }
   EXPECT_LE(quantised(image).palette.size(), 256U);
   const Image back = decoded(png(image));
@@ -113,7 +115,7 @@ TEST(Camera, MapIsToScale) {
 
 TEST(Camera, BirdFillsTheFrameAndKeepsItsMargin) {
   for (const double azimuth : {0.0, 25.0, 62.0, 130.0, 300.0}) {
-    const Camera camera = Camera::bird(kCube, radians(azimuth), radians(35.0), {800, 600, 20.0});
+    const Camera camera = Camera::bird(kCube, corners(kCube), radians(azimuth), radians(35.0), {800, 600, 20.0});
     Box<2> seen;
     for (int k = 0; k < 8; ++k) {
       const Projected q = camera.project({k & 1 ? 10.0 : 0.0, k & 2 ? 10.0 : 0.0, k & 4 ? 10.0 : 0.0});
@@ -129,7 +131,7 @@ TEST(Camera, BirdFillsTheFrameAndKeepsItsMargin) {
 }
 
 TEST(Camera, BirdLooksDownAlongItsAzimuth) {
-  const Camera camera = Camera::bird(kCube, radians(90.0), radians(30.0), {800, 800, 20.0});
+  const Camera camera = Camera::bird(kCube, corners(kCube), radians(90.0), radians(30.0), {800, 800, 20.0});
   EXPECT_NEAR((camera.forward() - Vec<3>(0.0, std::sqrt(0.75), -0.5)).norm(), 0.0, 1e-12);
   const Projected centre = camera.project(kCube.center()), higher = camera.project({5.0, 5.0, 6.0}), farther = camera.project({5.0, 8.0, 5.0});
   const Projected right = camera.project({6.0, 5.0, 5.0});
@@ -160,7 +162,7 @@ TEST(Raster, NearHidesFarInAnyOrder) {
 }
 
 TEST(Raster, PerspectiveDepthIsExactInsideATriangle) {
-  const Camera camera = Camera::bird(kCube, radians(40.0), radians(30.0), {300, 300, 10.0});
+  const Camera camera = Camera::bird(kCube, corners(kCube), radians(40.0), radians(30.0), {300, 300, 10.0});
   Raster raster(camera);
   const std::array<Vec<3>, 3> floor{Vec<3>(0.0, 0.0, 0.0), Vec<3>(10.0, 0.0, 0.0), Vec<3>(0.0, 10.0, 0.0)};
   raster.polygon(floor, kRed);
@@ -198,7 +200,7 @@ TEST(Raster, TooSmallToMeetASampleStillShows) {
 }
 
 TEST(Raster, NothingOutsideThePictureOrBehindTheEye) {
-  const Camera camera = Camera::bird(kCube, 0.3, 0.5, {60, 60, 5.0});
+  const Camera camera = Camera::bird(kCube, corners(kCube), 0.3, 0.5, {60, 60, 5.0});
   Raster raster(camera);
   raster.point(kCube.center() - 1000.0 * camera.forward(), 5.0, kRed);
   raster.point(kCube.center() + 1000.0 * camera.right(), 5.0, kRed);
@@ -212,7 +214,7 @@ TEST(Raster, NothingOutsideThePictureOrBehindTheEye) {
 }
 
 TEST(Shade, APlaneKeepsItsColourAndAFootOfAWallIsDarker) {
-  const Camera camera = Camera::bird(kCube, radians(90.0), radians(35.0), {300, 300, 10.0});
+  const Camera camera = Camera::bird(kCube, corners(kCube), radians(90.0), radians(35.0), {300, 300, 10.0});
   Raster raster(camera);
   const std::array<Vec<3>, 4> floor{Vec<3>(0, 0, 0), Vec<3>(10, 0, 0), Vec<3>(10, 8, 0), Vec<3>(0, 8, 0)};
   const std::array<Vec<3>, 4> wall{Vec<3>(0, 8, 0), Vec<3>(10, 8, 0), Vec<3>(10, 8, 6), Vec<3>(0, 8, 6)};

@@ -14,19 +14,19 @@ namespace vantage {
 /// Everything the report shows of a run.
 template <int Dim>
 struct ReportInput {
-  std::string scene;                                           ///< "town"
-  std::string command;                                         ///< "vantage explore town"
-  std::vector<std::pair<std::string, std::string>> settings;   ///< Name and value with unit, for the table at the end.
+  std::string scene;                                          ///< "town"
+  std::string command;                                        ///< "vantage explore town"
+  std::vector<std::pair<std::string, std::string>> settings;  ///< Name and value with unit, for the table at the end.
   Box<Dim> domain;
-  std::vector<std::vector<Vec<Dim>>> scan_points;              ///< Hits per scan [m].
+  std::vector<std::vector<Vec<Dim>>> scan_points;  ///< Hits per scan [m].
   std::vector<Patch<Dim>> patches;
   Field<Dim, NodeState> state;
-  std::vector<Vec<Dim>> path;                                  ///< Through the vantage points, in order.
+  std::vector<Vec<Dim>> path;  ///< Through the vantage points, in order.
   std::vector<StepRecord<Dim>> steps;
   std::vector<Snapshot<Dim>> snapshots;
   Verdict<Dim> verdict;
   SurfaceStatistics surface;
-  int picture_width = 1400;                                    ///< Of the large pictures [pixels].
+  int picture_width = 1400;  ///< Of the large pictures [pixels].
 };
 
 /// One self-contained HTML page (no network, pictures inline).

@@ -35,7 +35,8 @@ TYPED_TEST_SUITE(Report, Dimensions);
 /// The page as a tree; fails the test if a tag is left open, an attribute lacks its quotes, or an entity is unknown.
 pugi::xml_document parsed(const std::string& html) {
   pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(html.data(), html.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+  const pugi::xml_parse_result result =
+      document.load_buffer(html.data(), html.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
   EXPECT_TRUE(result) << result.description() << " at " << html.substr(static_cast<std::size_t>(result.offset), 80);
   return document;
 }
@@ -53,8 +54,10 @@ TYPED_TEST(Report, IsWellFormedAndHasItsParts) {
 
 TYPED_TEST(Report, NeedsNothingFromOutside) {
   const std::string& html = this->html();
-  for (const char* word : {"http:", "https:", "url(", "@import", "<script", "<link", "<iframe"}) EXPECT_EQ(html.find(word), std::string::npos) << word;
-  for (const pugi::xpath_node& node : parsed(html).select_nodes("//*[@src]")) {
+  for (const char* word : {"http:", "https:", "url(", "@import", "<script", "<link", "<iframe"})
+    EXPECT_EQ(html.find(word), std::string::npos) << word;
+  const pugi::xml_document document = parsed(html);
+  for (const pugi::xpath_node& node : document.select_nodes("//*[@src]")) {
     EXPECT_TRUE(std::string_view(node.node().attribute("src").value()).starts_with("data:image/png;base64,iVBOR"));
   }
 }
@@ -62,7 +65,8 @@ TYPED_TEST(Report, NeedsNothingFromOutside) {
 TYPED_TEST(Report, EveryPictureHasWords) {
   const pugi::xml_document document = parsed(this->html());
   for (const pugi::xpath_node& node : document.select_nodes("//img")) EXPECT_FALSE(std::string(node.node().attribute("alt").value()).empty());
-  for (const pugi::xpath_node& node : document.select_nodes("//figure")) EXPECT_FALSE(std::string(node.node().child("figcaption").text().get()).empty());
+  for (const pugi::xpath_node& node : document.select_nodes("//figure"))
+    EXPECT_FALSE(std::string(node.node().child("figcaption").text().get()).empty());
 }
 
 TYPED_TEST(Report, SameBytesForAnyNumberOfThreads) {
@@ -133,8 +137,14 @@ TYPED_TEST(Report, NamesAreEscaped) {
 TYPED_TEST(Report, TheVerdictIsSaidAsItIs) {
   constexpr int Dim = TypeParam::value;
   ReportInput<Dim> input = this->input();
-  input.verdict = {true, "nothing that remains can open", 0.99968, 0.9991, 0.99999, {}};
-  EXPECT_EQ(verdict_text(input), "6\u00a0scans saw 99.96\u00a0% of what can be seen here (between 99.91\u00a0% and 100.00\u00a0%). Nothing that remains can open.");
+  input.verdict = {};
+  input.verdict.complete = true;
+  input.verdict.reason = "nothing that remains can open";
+  input.verdict.seen_fraction = 0.99968;
+  input.verdict.seen_low = 0.9991;
+  input.verdict.seen_high = 0.99999;
+  EXPECT_EQ(verdict_text(input),
+            "6\u00a0scans saw 99.96\u00a0% of what can be seen here (between 99.91\u00a0% and 100.00\u00a0%). Nothing that remains can open.");
   EXPECT_NE(header_html(input).find("<b>Complete.</b>"), std::string::npos);
   input.verdict.complete = false;
   EXPECT_NE(header_html(input).find("<b>Not complete.</b>"), std::string::npos);
@@ -197,9 +207,12 @@ TEST(Text, NumbersReadWell) {
   EXPECT_EQ(number(std::int64_t{1234}), "1234");
   EXPECT_EQ(number(0.09812), "0.0981");
   EXPECT_EQ(number(12.345), "12.3");
+  EXPECT_EQ(number(0.09999), "0.100");
+  EXPECT_EQ(number(99.97), "100");
   EXPECT_EQ(number(0.0), "0");
   EXPECT_EQ(number(std::nan("")), "–");
   EXPECT_EQ(rounded(0.5), "0.5");
+  EXPECT_EQ(rounded(1.0 / 3.0, 3), "0.333");
   EXPECT_EQ(rounded(20000.0), "20\u202f000");
 }
 
@@ -227,7 +240,8 @@ TEST(Curves, TicksAreRoundAndCover) {
 }
 
 TEST(Curves, LogarithmIsRight) {
-  for (const double value : {1e-9, 0.02, 0.5, 1.0, 2.0, 10.0, 123.456, 1e12}) EXPECT_NEAR(log10_of(value), std::log10(value), 1e-13 * (1.0 + std::abs(std::log10(value))));
+  for (const double value : {1e-9, 0.02, 0.5, 1.0, 2.0, 10.0, 123.456, 1e12})
+    EXPECT_NEAR(log10_of(value), std::log10(value), 1e-13 * (1.0 + std::abs(std::log10(value))));
 }
 
 TEST(Curves, WhatCannotBeShownIsLeftOut) {

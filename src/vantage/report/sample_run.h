@@ -10,9 +10,9 @@
 namespace vantage::sample {
 
 struct Size {
-  double spacing = 2.0;     ///< Of the lattice [m].
-  double step = 3.0;        ///< Between rays [degrees].
-  double piece = 4.0;       ///< Side of a patch [m].
+  double spacing = 2.0;  ///< Of the lattice [m].
+  double step = 3.0;     ///< Between rays [degrees].
+  double piece = 4.0;    ///< Side of a patch [m].
   int boxes = 8, scans = 6;
   int picture_width = 420;  ///< [pixels]
 };
@@ -94,7 +94,8 @@ template <int Dim>
 bool sees(const std::vector<Box<Dim>>& boxes, const Vec<Dim>& from, const Vec<Dim>& to) {
   const double length = (to - from).norm();
   if (length < 1e-9) return true;
-  return length < 60.0 && std::none_of(boxes.begin(), boxes.end(), [&](const Box<Dim>& box) { return range_to<Dim>(box, from, (to - from) / length) < length; });
+  return length < 60.0 &&
+         std::none_of(boxes.begin(), boxes.end(), [&](const Box<Dim>& box) { return range_to<Dim>(box, from, (to - from) / length) < length; });
 }
 
 template <int Dim>
@@ -178,14 +179,24 @@ ReportInput<Dim> run(const Size& size = {}) {
     add_pieces(ground, size.piece, input.patches);
     input.patches.push_back(segment_patch(corner<Dim>(5.0, 4.0, 8.0), corner<Dim>(125.0, 4.0, 8.0)));
   }
-  for (int k = 0; k < 200; ++k) input.patches.push_back(point_patch<Dim>(corner<Dim>(random.uniform(60.0, 64.0), random.uniform(6.0, 10.0), random.uniform(3.0, 7.0))));
+  for (int k = 0; k < 200; ++k)
+    input.patches.push_back(point_patch<Dim>(corner<Dim>(random.uniform(60.0, 64.0), random.uniform(6.0, 10.0), random.uniform(3.0, 7.0))));
 
   input.state = Field<Dim, NodeState>(window);
   for (std::size_t i = 0; i < window.size(); ++i) input.state[i] = state_of<Dim>(boxes, stations, window.position(i), 0.6 * size.spacing);
   for (int k = 0; k < size.scans; ++k) input.snapshots.push_back(make_snapshot<Dim>(boxes, stations, k, window));
 
-  input.verdict = {false, "unseen space remains and no plan reaches it", 0.997, 0.9952, 0.9981, 0.0, {}};
-  for (const Box<Dim>& box : boxes) input.verdict.unseen.push_back({box.size().prod(), 0.1 * box.size().prod(), box, input.verdict.unseen.size() % 3 == 1 ? "no reachable view" : "enclosed"});
+  input.verdict.reason = "unseen space remains and no plan reaches it";
+  input.verdict.seen_fraction = 0.997;
+  input.verdict.seen_low = 0.9952;
+  input.verdict.seen_high = 0.9981;
+  for (const Box<Dim>& box : boxes) {
+    UnseenRegion<Dim> region;
+    region.volume = box.size().prod();
+    region.box = box;
+    region.reason = input.verdict.unseen.size() % 3 == 1 ? "no reachable view" : "enclosed";
+    input.verdict.unseen.push_back(region);
+  }
   std::stable_sort(input.verdict.unseen.begin(), input.verdict.unseen.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
   input.surface.points = 1;
   input.surface.fits = static_cast<std::int64_t>(input.patches.size()) - 201;

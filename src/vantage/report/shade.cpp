@@ -93,7 +93,7 @@ Image resolved(const Raster& raster, const Shading& shading) {
     for (int x = 0; x < image.width; ++x) {
       const auto [sum, count] = shaded(raster, depths, x, static_cast<int>(row), shading.strength);
       if (count == 0) continue;
-      const auto mean = [n = count](double s) { return static_cast<std::uint8_t>(s / n + 0.5); };
+      const auto mean = [n = count](double s) { return static_cast<std::uint8_t>(std::lround(s / n)); };
       image.set(x, static_cast<int>(row), {mean(sum[0]), mean(sum[1]), mean(sum[2])},
                 static_cast<std::uint8_t>(count * 255 / (Raster::kSamples * Raster::kSamples)));
     }

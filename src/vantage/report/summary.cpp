@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "vantage/report/sections.h"
@@ -11,7 +12,7 @@ namespace vantage {
 
 namespace {
 
-struct Figure {
+struct KeyFigure {
   std::string name, value, note;
 };
 
@@ -29,24 +30,26 @@ std::string scans(const ReportInput<Dim>& input) {
 
 template <int Dim>
 std::string bounds(const ReportInput<Dim>& input) {
-  return percent(input.verdict.seen_low) + " to " + percent(input.verdict.seen_high, true);
+  const std::string low = percent(input.verdict.seen_low), high = percent(input.verdict.seen_high, true);
+  return low == high ? "for certain" : low + " to " + high;
 }
 
 template <int Dim>
-Figure surface_figure(const SurfaceStatistics& surface) {
-  const std::string names[] = {"Segments", "Flat pieces"};
-  const std::string thin[] = {"", counted(surface.segments, "thin piece", "thin pieces") + ", "};
+KeyFigure surface_figure(const SurfaceStatistics& surface) {
+  const std::array<std::string, 2> names{"Segments", "Flat pieces"};
+  const std::array<std::string, 2> thin{"", counted(surface.segments, "thin piece", "thin pieces") + ", "};
   return {names[Dim - 2], number(surface.fits), "and " + thin[Dim - 2] + counted(surface.loose_points, "single point", "single points")};
 }
 
-Figure error_figure(const SurfaceStatistics& surface) {
+KeyFigure error_figure(const SurfaceStatistics& surface) {
   const bool kept = surface.certified() <= surface.eta;
-  return {"Certified error", quantity(surface.certified(), "m"),
-          fmt::format("{} the tolerance of {}, points to surface and surface to points", kept ? "within" : "above", quantity(surface.eta, "m"))};
+  return {
+      "Certified error", quantity(surface.certified(), "m"),
+      fmt::format("{} the tolerance of {}, points to surface and surface to points", kept ? "within" : "above", rounded(surface.eta, 3) + "\u00a0m")};
 }
 
 template <int Dim>
-std::vector<Figure> key_figures(const ReportInput<Dim>& input) {
+std::vector<KeyFigure> key_figures(const ReportInput<Dim>& input) {
   std::int64_t points = 0;
   for (const auto& scan : input.scan_points) points += static_cast<std::int64_t>(scan.size());
   const double seen = input.steps.empty() ? 0.0 : input.steps.back().seen_volume;
@@ -56,18 +59,19 @@ std::vector<Figure> key_figures(const ReportInput<Dim>& input) {
           error_figure(input.surface),
           {fmt::format("Seen {}", volume_word<Dim>()), quantity(seen, volume_unit<Dim>()),
            fmt::format("on a lattice of {} nodes, {} apart", number(static_cast<std::int64_t>(input.state.window.size())),
-                       quantity(input.state.window.spacing, "m"))}};
+                       rounded(input.state.window.spacing, 3) + "\u00a0m")}};
 }
 
 template <int Dim>
 std::string gauge(const Verdict<Dim>& verdict) {
   const auto share = [](double value) { return 100.0 * std::clamp(value, 0.0, 1.0); };
   return fmt::format(
-      "<div class=\"gauge\" role=\"img\" aria-label=\"Seen share {}\"><i class=\"bounds\" style=\"width:{:.2f}%\"></i><i style=\"width:{:.2f}%\"></i></div>\n",
+      "<div class=\"gauge\" role=\"img\" aria-label=\"Seen share {}\"><i class=\"bounds\" style=\"width:{:.2f}%\"></i><i "
+      "style=\"width:{:.2f}%\"></i></div>\n",
       percent(verdict.seen_fraction), share(verdict.seen_high), share(verdict.seen_low));
 }
 
-/// What is left, by reasons: `3 regions of 12.5 m³ (enclosed)`.
+/// What is left, by reasons.
 template <int Dim>
 std::string left_over(const Verdict<Dim>& verdict) {
   if (verdict.unseen.empty()) return {};
@@ -79,10 +83,14 @@ std::string left_over(const Verdict<Dim>& verdict) {
   }
   std::string list;
   for (const auto& [reason, count] : reasons) {
-    list += fmt::format("{}{} {}{}", list.empty() ? "" : ", ", number(count), reason == "no reachable view" ? "with " : "", reason);
+    const std::string share = reasons.size() > 1 ? number(count) + " " : count > 1 ? "all " : "";
+    list += fmt::format("{}{}{}{}", list.empty() ? "" : ", ", share, reason == "no reachable view" ? "with " : "", reason);
   }
-  return fmt::format(" {} unseen, {} in all: {}.", counted(static_cast<std::int64_t>(verdict.unseen.size()), "region stays", "regions stay"),
-                     quantity(volume, volume_unit<Dim>()), list);
+  const double rest = verdict.unseen_volume - volume;
+  const std::string smaller =
+      rest > 0.01 * volume ? fmt::format(" Smaller ones, not listed, add {}.", quantity(rest, volume_unit<Dim>())) : std::string();
+  return fmt::format(" {} unseen, {} in all: {}.{}", counted(static_cast<std::int64_t>(verdict.unseen.size()), "region stays", "regions stay"),
+                     quantity(volume, volume_unit<Dim>()), list, smaller);
 }
 
 std::string sentence(std::string text) {
@@ -97,21 +105,22 @@ std::string sentence(std::string text) {
 template <int Dim>
 std::string verdict_text(const ReportInput<Dim>& input) {
   if (input.steps.empty()) return "No scan was taken, so nothing can be said of the place. " + sentence(input.verdict.reason);
-  const std::string share = fmt::format("{} saw {} of what can be seen here (between {})", scans(input), percent(input.verdict.seen_fraction),
-                                        percent(input.verdict.seen_low) + " and " + percent(input.verdict.seen_high, true));
-  return share + ". " + sentence(input.verdict.reason) + left_over(input.verdict);
+  const std::string low = percent(input.verdict.seen_low), high = percent(input.verdict.seen_high, true);
+  const std::string between = low == high ? std::string() : fmt::format(" (between {} and {})", low, high);
+  const std::string share = fmt::format("{} saw {} of what can be seen here{}. ", scans(input), percent(input.verdict.seen_fraction), between);
+  return share + sentence(input.verdict.reason) + left_over(input.verdict);
 }
 
 template <int Dim>
 std::string header_html(const ReportInput<Dim>& input) {
   const Verdict<Dim>& verdict = input.verdict;
-  const char* words[] = {"Exploration in the plane", "Exploration in space"};
-  std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", verdict.complete ? "done" : "not-done", words[Dim - 2],
-                                 escaped(input.scene));
+  constexpr std::array<const char*, 2> words{"Exploration in the plane", "Exploration in space"};
+  std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", verdict.complete ? "done" : "not-done",
+                                 words[Dim - 2], escaped(input.scene));
   html += fmt::format("<div class=\"verdict\"><p><b>{}</b> {}</p>\n<div class=\"share\"><strong>{}</strong><span>seen ({})</span></div></div>\n",
                       verdict.complete ? "Complete." : "Not complete.", escaped(verdict_text(input)), percent(verdict.seen_fraction), bounds(input));
   html += gauge(verdict) + "<dl>\n";
-  for (const Figure& figure : key_figures(input)) {
+  for (const KeyFigure& figure : key_figures(input)) {
     html += fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", escaped(figure.name), escaped(figure.value), escaped(figure.note));
   }
   return html + "</dl>\n</header>\n";

@@ -41,11 +41,16 @@ template <int Dim>
 std::string unseen_html(const Verdict<Dim>& verdict) {
   std::string html = "<section id=\"left\"><h2>What stays unseen, and why</h2>\n";
   if (verdict.unseen.empty()) return html + "<p class=\"note\">No region above the reporting threshold stays unseen.</p></section>\n";
-  const std::vector<std::string> columns{">No.", ">" + capital(volume_word<Dim>()) + " [" + std::string(volume_unit<Dim>()) + "]", "Size", "Around", "Why"};
+  const std::vector<std::string> columns{">No.",
+                                         ">" + capital(volume_word<Dim>()) + " [" + std::string(volume_unit<Dim>()) + "]",
+                                         ">May open [" + std::string(volume_unit<Dim>()) + "]",
+                                         "Size",
+                                         "Around",
+                                         "Why"};
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < verdict.unseen.size(); ++i) {
     const UnseenRegion<Dim>& region = verdict.unseen[i];
-    rows.push_back({number(static_cast<std::int64_t>(i + 1)), number(region.volume), size_text<Dim>(region.box),
+    rows.push_back({number(static_cast<std::int64_t>(i + 1)), number(region.volume), number(region.may_open), size_text<Dim>(region.box),
                     region.box.empty() ? "–" : place_text<Dim>(region.box.center()), escaped(explained(region.reason))});
   }
   const auto split = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kListed, rows.size()));
@@ -59,10 +64,12 @@ std::string steps_table(const std::vector<StepRecord<Dim>>& steps) {
   std::vector<std::vector<std::string>> rows;
   for (const StepRecord<Dim>& step : steps) {
     rows.push_back({number(static_cast<std::int64_t>(step.scan)), place_text<Dim>(step.vantage), number(step.points), number(step.new_volume),
-                    percent(step.seen_fraction), number(step.path_length), number(step.next_score), number(step.expected_volume), number(step.candidates)});
+                    percent(step.seen_fraction), number(step.path_length), number(step.next_score), number(step.expected_volume),
+                    number(step.candidates)});
   }
   const std::string unit(volume_unit<Dim>());
-  return table({">Scan", "Vantage point [m]", ">Points", ">New [" + unit + "]", ">Seen share", ">Path [m]", ">Next max E", ">Expected next [" + unit + "]", ">Candidates"},
+  return table({">Scan", "Vantage point [m]", ">Points", ">New [" + unit + "]", ">Seen share", ">Path [m]", ">Next max E",
+                ">Expected next [" + unit + "]", ">Candidates"},
                rows);
 }
 
@@ -101,11 +108,29 @@ std::string curves_html(const ReportInput<Dim>& input) {
   using Step = StepRecord<Dim>;
   const std::string word(volume_word<Dim>()), unit(volume_unit<Dim>());
 
-  Chart share{"Seen share", "Of what can be seen; the band shows the bounds of the final share.", "scan", "%", false, lowest_share(steps), 100.0,
-              100.0 * input.verdict.seen_low, 100.0 * input.verdict.seen_high, {}};
-  share.curves.push_back(named(over_scans(steps, [](const Step& s) { return 100.0 * s.seen_fraction; }), percent(steps.back().seen_fraction), "var(--c1)"));
+  Chart share{"Seen share",
+              "Of what can be seen; the band shows the bounds of the final share.",
+              "scan",
+              "%",
+              false,
+              lowest_share(steps),
+              100.0,
+              100.0 * input.verdict.seen_low,
+              100.0 * input.verdict.seen_high,
+              {}};
+  share.curves.push_back(
+      named(over_scans(steps, [](const Step& s) { return 100.0 * s.seen_fraction; }), percent(steps.back().seen_fraction), "var(--c1)"));
 
-  Chart gain{"New " + word + " of each scan", "What each scan saw first, beside what the planner expected of it.", "scan", unit, true, 0, 0, 0, 0, {}};
+  Chart gain{"New " + word + " of each scan",
+             "What each scan was the first to see, beside what the planner expected of it; scans that showed nothing new are left out.",
+             "scan",
+             unit,
+             true,
+             0,
+             0,
+             0,
+             0,
+             {}};
   Curve expected = over_scans(steps, [](const Step& s) { return s.expected_volume; });
   for (double& x : expected.x) x += 1.0;  // It speaks of the scan that follows.
   expected.x.pop_back();

@@ -48,13 +48,14 @@ std::string number(double value) {
   if (size == 0.0) return "0";
   if (size < 1e-4 || size >= 1e12) return fmt::format("{:.2e}", value);
   int decimals = 0;
-  for (double limit = 100.0; size < limit && decimals < 6; limit /= 10.0) ++decimals;
+  // What rounds up to the next power of ten has one decimal less.
+  for (double limit = 100.0; size * 1.0005 < limit && decimals < 6; limit /= 10.0) ++decimals;
   return grouped(fmt::format("{:.{}f}", value, decimals));
 }
 
-std::string rounded(double value) {
+std::string rounded(double value, int digits) {
   const double size = std::abs(value);
-  return size != 0.0 && (size < 1e-4 || size >= 1e12) ? fmt::format("{:g}", value) : grouped(fmt::format("{:.12g}", value));
+  return size != 0.0 && (size < 1e-4 || size >= 1e12) ? fmt::format("{:g}", value) : grouped(fmt::format("{:.{}g}", value, digits));
 }
 
 std::string number(std::int64_t value) { return grouped(fmt::format("{}", value)); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,8 +13,8 @@ namespace vantage {
 /// The number with about three significant digits and thin spaces between thousands: `1 234`, `12.3`, `0.0981`.
 [[nodiscard]] std::string number(double value);
 [[nodiscard]] std::string number(std::int64_t value);
-/// A round number without needless zeros: `20`, `0.5`.
-[[nodiscard]] std::string rounded(double value);
+/// A round number without needless zeros, to so many significant digits: `20`, `0.5`.
+[[nodiscard]] std::string rounded(double value, int digits = 12);
 /// A number and its unit, kept on one line; an infinite value is the sign, one that is not a number a dash.
 [[nodiscard]] std::string quantity(double value, std::string_view unit);
 /// A share in percent, rounded down (100 % is said of 1 alone), or up for an upper bound.
@@ -24,12 +25,12 @@ namespace vantage {
 /// Unit of the seen volume: an area in 2D.
 template <int Dim>
 [[nodiscard]] constexpr std::string_view volume_unit() {
-  constexpr std::string_view units[] = {"m²", "m³"};
+  constexpr std::array<std::string_view, 2> units{"m²", "m³"};
   return units[Dim - 2];
 }
 template <int Dim>
 [[nodiscard]] constexpr std::string_view volume_word() {
-  constexpr std::string_view words[] = {"area", "volume"};
+  constexpr std::array<std::string_view, 2> words{"area", "volume"};
   return words[Dim - 2];
 }
 

@@ -14,7 +14,7 @@ std::vector<Vec<2>> fill_between_rays<2>(const Scan<2>& scan, double spacing) {
     if (!std::isfinite(ranges[0]) || !std::isfinite(ranges[1])) continue;
     const Vec<2> a = image.point(i), b = image.point(j);
     const double gap = (b - a).norm();
-    if (gap < 1.4 * spacing || gap > 80.0 * spacing) continue;
+    if (gap < 1.4 * spacing || gap > kWidest * spacing) continue;
     const Vec<2> n(b[1] - a[1], a[0] - b[0]);
     const double k = n.dot(a);
     if (std::abs(k) < 1e-12) continue;

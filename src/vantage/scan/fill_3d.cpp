@@ -25,7 +25,7 @@ bool flat_quad(const RangeImage<3>& image, int c, int r, double spacing, Quad& q
   }
   const auto& p = quad.corner;
   const double longest = std::max({(p[1] - p[0]).norm(), (p[3] - p[2]).norm(), (p[2] - p[0]).norm(), (p[3] - p[1]).norm()});
-  if (longest < 1.4 * spacing || longest > 80.0 * spacing) return false;
+  if (longest < 1.4 * spacing || longest > kWidest * spacing) return false;
   const Vec<3> n = (p[1] - p[0]).cross(p[2] - p[0]);
   const double k = n.dot(p[0]);
   if (std::abs(k) < 1e-12) return false;

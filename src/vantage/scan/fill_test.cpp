@@ -26,7 +26,7 @@ Scan<Dim> two_walls(double step_deg) {
 
 TYPED_TEST(Fill, FillsWallsAndLeavesDepthJumpsOpen) {
   constexpr int Dim = TypeParam::value;
-  const auto points = fill_between_rays(two_walls<Dim>(2.0), 0.1);
+  const auto points = fill_between_rays(two_walls<Dim>(1.0), 0.1);
   ASSERT_GT(points.size(), 50U);
   for (const Vec<Dim>& p : points) {
     EXPECT_NEAR(p[0], p[1] < 0.0 ? 6.0 : 12.0, 0.02);
@@ -36,7 +36,7 @@ TYPED_TEST(Fill, FillsWallsAndLeavesDepthJumpsOpen) {
 
 TYPED_TEST(Fill, GapsAreClosedToTheSpacing) {
   constexpr int Dim = TypeParam::value;
-  const Scan<Dim> scan = two_walls<Dim>(2.0);
+  const Scan<Dim> scan = two_walls<Dim>(1.0);
   auto points = fill_between_rays(scan, 0.1);
   for (const Vec<Dim>& p : hit_points(scan)) points.push_back(p);
   for (double y = 1.0; y < 9.0; y += 0.037) {
@@ -52,6 +52,18 @@ TYPED_TEST(Fill, GapsAreClosedToTheSpacing) {
 TYPED_TEST(Fill, DenseScansNeedNone) {
   constexpr int Dim = TypeParam::value;
   EXPECT_TRUE(fill_between_rays(two_walls<Dim>(2.0), 100.0).empty());
+}
+
+/// A door hidden between two rays stays open.
+TYPED_TEST(Fill, WideGapsStayOpen) {
+  constexpr int Dim = TypeParam::value;
+  const double spacing = 0.1;
+  const Scan<Dim> scan = two_walls<Dim>(2.0);
+  for (const Vec<Dim>& p : fill_between_rays(scan, spacing)) {
+    double nearest = kInfinity;
+    for (const Vec<Dim>& hit : hit_points(scan)) nearest = std::min(nearest, (hit - p).norm());
+    EXPECT_LE(nearest, 2.5 * std::sqrt(2.0) * spacing);
+  }
 }
 
 TYPED_TEST(Fill, ScatteredHitsAreNotAWall) {

@@ -9,6 +9,9 @@
 
 namespace vantage {
 
+/// Gaps wider than this many sample spacings (2.5 lattice steps) stay open: a door may stand in them, for doors are three lattice steps wide.
+inline constexpr double kWidest = 5.0;
+
 /// A scan as an image of hits, in the sensor frame: columns go round a full circle.
 template <int Dim>
 class RangeImage {

@@ -9,7 +9,6 @@ namespace {
 constexpr std::size_t kSample = 128;  ///< More points than these are represented by a spread sample.
 constexpr int kRounds = 4;
 constexpr double kProgress = 0.8;        ///< A round that thins the pieces by less is the last.
-constexpr std::size_t kQueries = 48;     ///< Places asked for a hole.
 constexpr double kNearlyAll = 1.2;       ///< The pieces of a sample are not quite those of all: by so much must they pass the limit to be given up.
 constexpr double kOutside = 1.0 / 64.0;  ///< Weight of the squared distance beyond a piece's box, against that off its plane.
 
@@ -82,17 +81,15 @@ int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, dou
 }
 
 template <int Dim>
-bool shows_hole(std::span<const Site<Dim>> sample, const SiteView<Dim>& sites, const Cell<Dim>& cell, const Frame<Dim>& frame, const Snap<Dim>& snap,
-                double radius) {
+bool shows_hole(std::span<const std::array<Site<Dim>, 2>> pairs, const SiteView<Dim>& sites, const Cell<Dim>& cell, const Frame<Dim>& frame,
+                const Snap<Dim>& snap, double radius) {
   const Box<Dim> box = cell.box(snap.step());
-  const std::size_t queries = std::min(kQueries, sites.size() / 16);
-  for (std::size_t i = 0; i + 1 < sample.size() && i < queries; ++i) {
-    const Vec<Dim> middle = 0.5 * (snap.local(sample[i]) + snap.local(sample[i + 1]));
-    const Vec<Dim> normal = frame.axes.col(Dim - 1);
+  const Vec<Dim> normal = frame.axes.col(Dim - 1);
+  return std::any_of(pairs.begin(), pairs.end(), [&](const std::array<Site<Dim>, 2>& pair) {
+    const Vec<Dim> middle = 0.5 * (snap.local(pair[0]) + snap.local(pair[1]));
     const Vec<Dim> foot = middle - normal * normal.dot(middle - frame.origin);
-    if (box.contains(foot) && is_empty_ball<Dim>(sites, cell, foot / snap.step(), radius / snap.step())) return true;
-  }
-  return false;
+    return box.contains(foot) && is_empty_ball<Dim>(sites, cell, foot / snap.step(), radius / snap.step());
+  });
 }
 
 template <int Dim>
@@ -124,17 +121,20 @@ std::optional<Clusters<Dim>> two_clusters(GatheredSites<Dim>& sites, const Cell<
     }
     if (!thin) return std::nullopt;
     if (few) return clusters;
-    if (shows_hole<Dim>(clusters[0], sites.view(), cell, first.frame, rules.snap, kNearlyAll * rules.limit)) return std::nullopt;
-    if (shows_hole<Dim>(clusters[1], sites.view(), cell, second.frame, rules.snap, kNearlyAll * rules.limit)) return std::nullopt;
+    std::array<std::vector<std::array<Site<Dim>, 2>>, 2> pairs;
+    for (const auto& pair : probe_pairs<Dim>(sites.view(), cell))
+      if (const bool second_one = nearer_second(pair[0]); second_one == nearer_second(pair[1])) pairs[second_one ? 1 : 0].push_back(pair);
+    if (shows_hole<Dim>(pairs[0], sites.view(), cell, first.frame, rules.snap, kNearlyAll * rules.limit)) return std::nullopt;
+    if (shows_hole<Dim>(pairs[1], sites.view(), cell, second.frame, rules.snap, kNearlyAll * rules.limit)) return std::nullopt;
     clusters = divide<Dim>(sites.all(), nearer_second);
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     return clusters;
   }
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                        \
-  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&);                                    \
-  template bool shows_hole<D>(std::span<const Site<D>>, const SiteView<D>&, const Cell<D>&, const Frame<D>&, const Snap<D>&, double); \
+#define VANTAGE_INSTANTIATE(D)                                                                                                                       \
+  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&);                                                   \
+  template bool shows_hole<D>(std::span<const std::array<Site<D>, 2>>, const SiteView<D>&, const Cell<D>&, const Frame<D>&, const Snap<D>&, double); \
   template std::optional<Clusters<D>> two_clusters<D>(GatheredSites<D>&, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -24,10 +24,10 @@ template <int Dim>
 [[nodiscard]] std::optional<Clusters<Dim>> two_clusters(GatheredSites<Dim>& sites, const Cell<Dim>& cell, const FitRules<Dim>& rules,
                                                         const Frame<Dim>& frame, int axis);
 
-/// Is there a place on the frame's plane, between the feet of two sites of `sample` and inside the cell, with no site within `radius` [m]? Tries
-/// some midpoints; any patch of that plane which spans the sample then fails for a radius of the limit. `sites` are the cell's.
+/// Is the foot of some pair's midpoint on the frame's plane inside the cell and without a site within `radius` [m]? Any patch of that plane that
+/// spans the pairs then fails for a limit of `radius`. `sites` are the cell's.
 template <int Dim>
-[[nodiscard]] bool shows_hole(std::span<const Site<Dim>> sample, const SiteView<Dim>& sites, const Cell<Dim>& cell, const Frame<Dim>& frame,
-                              const Snap<Dim>& snap, double radius);
+[[nodiscard]] bool shows_hole(std::span<const std::array<Site<Dim>, 2>> pairs, const SiteView<Dim>& sites, const Cell<Dim>& cell,
+                              const Frame<Dim>& frame, const Snap<Dim>& snap, double radius);
 
 }  // namespace vantage

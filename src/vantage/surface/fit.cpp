@@ -198,7 +198,8 @@ bool sample_rejects(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Fra
   if (frame.variance[Dim - 1] > rules.limit * rules.limit) return true;
   const std::vector<Site<Dim>> sample = spread_sample<Dim>(sites, cell);
   const auto off_plane = [&](const Site<Dim>& site) { return std::abs(frame.local(rules.snap.local(site))[Dim - 1]) > rules.limit; };
-  return std::any_of(sample.begin(), sample.end(), off_plane) || shows_hole<Dim>(sample, sites, cell, frame, rules.snap, rules.limit);
+  return std::any_of(sample.begin(), sample.end(), off_plane) ||
+         shows_hole<Dim>(probe_pairs<Dim>(sites, cell), sites, cell, frame, rules.snap, rules.limit);
 }
 
 }  // namespace
@@ -226,10 +227,13 @@ std::optional<CellFit<Dim>> fit_cell(GatheredSites<Dim>& sites, const Moments<Di
   const Frame<Dim> frame = principal_frame(moments, rules.snap.step());
   if (few || !sample_rejects<Dim>(sites.view(), cell, frame, rules))
     if (const auto one = fit_flat<Dim>(sites.all(), frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
-  for (int axis = 0; axis < Dim; ++axis)
-    if (frame.variance[axis] > kThin * kThin * rules.limit * rules.limit)
-      if (const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis))
-        if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
+  Clusters<Dim> failed;
+  for (int axis = 0; axis < Dim && frame.variance[axis] > kThin * kThin * rules.limit * rules.limit; ++axis) {
+    auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis);
+    if (!clusters || *clusters == failed) continue;
+    if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
+    failed = std::move(*clusters);
+  }
   return std::nullopt;
 }
 

@@ -17,17 +17,20 @@ void append(const Node<Dim>& node, std::vector<Site<Dim>>& out) {
     for (const Node<Dim>& child : node.inner->children) append<Dim>(child, out);
 }
 
-/// First and middle sites of the cell's descendants so many levels down.
+/// The cell's descendants so many levels down that hold sites.
 template <int Dim>
-void spread(const SiteView<Dim>& sites, const Cell<Dim>& cell, int levels, std::vector<Site<Dim>>& out) {
+void descendants(const SiteView<Dim>& sites, const Cell<Dim>& cell, int levels, std::vector<SiteView<Dim>>& out) {
   if (sites.empty()) return;
-  if (levels == 0 || cell.bits == 0) {
-    out.push_back(sites[0]);
-    if (sites.size() > 1) out.push_back(sites[sites.size() / 2]);
-    return;
-  }
+  if (levels == 0 || cell.bits == 0) return out.push_back(sites);
   const auto parts = sites.split(cell);
-  for (int c = 0; c < Cell<Dim>::kChildren; ++c) spread<Dim>(parts[c], cell.child(c), levels - 1, out);
+  for (int c = 0; c < Cell<Dim>::kChildren; ++c) descendants<Dim>(parts[c], cell.child(c), levels - 1, out);
+}
+
+template <int Dim>
+std::vector<SiteView<Dim>> descendants(const SiteView<Dim>& sites, const Cell<Dim>& cell) {
+  std::vector<SiteView<Dim>> out;
+  descendants<Dim>(sites, cell, sites.size() > kManySites ? 3 : 2, out);
+  return out;
 }
 
 }  // namespace
@@ -91,7 +94,10 @@ bool is_empty_ball(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Vec<
 template <int Dim>
 std::vector<Site<Dim>> spread_sample(const SiteView<Dim>& sites, const Cell<Dim>& cell) {
   std::vector<Site<Dim>> near, sample;
-  spread<Dim>(sites, cell, sites.size() > kManySites ? 3 : 2, near);
+  for (const SiteView<Dim>& part : descendants<Dim>(sites, cell)) {
+    near.push_back(part[0]);
+    if (part.size() > 1) near.push_back(part[part.size() / 2]);
+  }
   constexpr std::size_t kStride = 397;  // A prime, so that the steps go through all sites.
   const std::size_t round = near.size() % kStride == 0 ? near.size() + 1 : near.size();
   for (std::size_t i = 0; i < round; ++i)
@@ -99,10 +105,28 @@ std::vector<Site<Dim>> spread_sample(const SiteView<Dim>& sites, const Cell<Dim>
   return sample;
 }
 
+template <int Dim>
+std::vector<std::array<Site<Dim>, 2>> probe_pairs(const SiteView<Dim>& sites, const Cell<Dim>& cell) {
+  constexpr std::size_t kSamplePairs = 48, kSparse = 32, kEach = 4;
+  std::vector<std::array<Site<Dim>, 2>> pairs;
+  const std::vector<Site<Dim>> sample = spread_sample<Dim>(sites, cell);
+  for (std::size_t i = 0; i + 1 < sample.size() && i < std::min(kSamplePairs, sites.size() / 16); ++i) pairs.push_back({sample[i], sample[i + 1]});
+  if (sites.size() <= kManySites) return pairs;
+  auto parts = descendants<Dim>(sites, cell);
+  std::stable_sort(parts.begin(), parts.end(), [](const SiteView<Dim>& a, const SiteView<Dim>& b) { return a.size() < b.size(); });
+  for (std::size_t p = 0; p < std::min(kSparse, parts.size()); ++p) {
+    const std::size_t count = std::min(kEach, parts[p].size());
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = i + 1; j < count; ++j) pairs.push_back({parts[p][i * parts[p].size() / count], parts[p][j * parts[p].size() / count]});
+  }
+  return pairs;
+}
+
 #define VANTAGE_INSTANTIATE(D)                                                               \
   template class SiteView<D>;                                                                \
   template bool is_empty_ball<D>(const SiteView<D>&, const Cell<D>&, const Vec<D>&, double); \
-  template std::vector<Site<D>> spread_sample<D>(const SiteView<D>&, const Cell<D>&);
+  template std::vector<Site<D>> spread_sample<D>(const SiteView<D>&, const Cell<D>&);        \
+  template std::vector<std::array<Site<D>, 2>> probe_pairs<D>(const SiteView<D>&, const Cell<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
 

@@ -63,4 +63,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<Site<Dim>> spread_sample(const SiteView<Dim>& sites, const Cell<Dim>& cell);
 
+/// Pairs of sites between which a hole of the cell may show: neighbours in the spread sample, and in a large cell sites of its sparsest descendants.
+template <int Dim>
+[[nodiscard]] std::vector<std::array<Site<Dim>, 2>> probe_pairs(const SiteView<Dim>& sites, const Cell<Dim>& cell);
+
 }  // namespace vantage

@@ -108,14 +108,13 @@ Change<Dim> Tree<Dim>::build(Node<Dim>& node, const Cell<Dim>& cell, std::span<c
   change.points_read = static_cast<std::int64_t>(sites.size());
   const Moments<Dim> sums = moments<Dim>(sites, cell.low, cell.bits);
   GatheredSites<Dim> all{SiteView<Dim>(sites)};
-  auto proof = cell.depth() < max_depth_ ? prove(all.view(), cell) : nullptr;
-  if (!proof && set_leaf(node, cell, all, sums)) {
+  if (set_leaf(node, cell, all, sums)) {
     change.changed = bounds(node);
     return change;
   }
   node.inner = std::make_unique<InnerNode<Dim>>();
   node.inner->moments = sums;
-  node.inner->proof = std::move(proof);
+  node.inner->proof = prove(all.view(), cell);
   const auto parts = cell.split(sites);
   std::array<Change<Dim>, Cell<Dim>::kChildren> changes;
   parallel_for(Cell<Dim>::kChildren, sites.size() >= kParallelPoints ? 1 : Cell<Dim>::kChildren,
