@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-
 #include "vantage/base/random.h"
 
 namespace vantage {
@@ -18,7 +16,11 @@ Frame<Dim> random_frame(Random& random, double half) {
     frame.origin[i] = random.uniform(-half, half);
     for (int j = 0; j < Dim; ++j) m(i, j) = random.uniform(-1.0, 1.0);
   }
-  frame.axes = Eigen::HouseholderQR<Eigen::Matrix<double, Dim, Dim>>(m).householderQ();
+  for (int i = 0; i < Dim; ++i) {  // Gram and Schmidt, twice over for accuracy.
+    for (int j = 0; j < 2 * i; ++j) m.col(i) -= m.col(i).dot(m.col(j % i)) * m.col(j % i);
+    m.col(i).normalize();
+  }
+  frame.axes = m;
   return frame;
 }
 
