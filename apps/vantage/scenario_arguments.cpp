@@ -17,7 +17,8 @@ std::string help_of(const std::string& name) {
   Scenario scenario;
   for (const Option& option : list_options(scenario))
     if (option.name == name) return fmt::format("{} ({}; {})", option.doc, option.allowed(), option.name);
-  if (name == "planner.weights") return "how much seeing a place is worth: a box and its weight, 1 elsewhere; several boxes one after the other (planner.weights)";
+  if (name == "planner.weights")
+    return "how much seeing a place is worth: a box and its weight, 1 elsewhere; several boxes one after the other (planner.weights)";
   return "first vantage point, inside the domain [m] (2D: x,y)";
 }
 

@@ -61,10 +61,12 @@ Field<Dim> weight_field(const Grid<Dim>& window, const std::vector<double>& weig
 template <int Dim>
 void check_weights(const std::vector<double>& weights) {
   constexpr std::size_t kNumbers = 2 * Dim + 1;
-  require(weights.size() % kNumbers == 0, fmt::format("planner.weights: {} numbers: must be {} a box: low corner, high corner [m], weight", weights.size(), kNumbers));
+  require(weights.size() % kNumbers == 0,
+          fmt::format("planner.weights: {} numbers: must be {} a box: low corner, high corner [m], weight", weights.size(), kNumbers));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     require(std::isfinite(weights[i]), fmt::format("planner.weights: {}: must be finite", weights[i]));
-    if (i % kNumbers == kNumbers - 1) require(weights[i] >= 0.0 && weights[i] <= 1e6, fmt::format("planner.weights: weight {}: must be 0 .. 1e+06", weights[i]));
+    if (i % kNumbers == kNumbers - 1)
+      require(weights[i] >= 0.0 && weights[i] <= 1e6, fmt::format("planner.weights: weight {}: must be 0 .. 1e+06", weights[i]));
   }
 }
 

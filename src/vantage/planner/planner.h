@@ -60,8 +60,8 @@ class Planner {
   OpeningModel<Dim> opening_;
   std::vector<Vec<Dim>> visited_;
   Field<Dim, std::uint8_t> reachable_;
-  Field<Dim> weight_;    // w per node; empty: 1 everywhere.
-  RaySums scale_;  // Largest of each term over the candidates of the last decision.
+  Field<Dim> weight_;  // w per node; empty: 1 everywhere.
+  RaySums scale_;      // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
   int below_ = 0, idle_ = 0;  // Picks in a row.
 };

@@ -22,8 +22,8 @@ struct PlannerOptions {
   std::int64_t refine_rays = 4000;  ///< Second look at the best (2D: a quarter of it).
   std::int64_t refine = 16;         ///< How many are looked at twice.
 
-  /// The paper's weighting w: boxes, each as its low corner, its high corner [m] and its weight [1], one after the other, 2 Dim + 1 numbers each. Inside
-  /// a box its weight counts (the last one that holds the place), elsewhere 1. Not described to visitors: it is a list.
+  /// The paper's weighting w: boxes, each as its low corner, its high corner [m] and its weight [1], one after the other, 2 Dim + 1 numbers each.
+  /// Inside a box its weight counts (the last one that holds the place), elsewhere 1. Not described to visitors: it is a list.
   std::vector<double> weights;
 
   // Boundary sum.

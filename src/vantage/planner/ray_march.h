@@ -29,9 +29,9 @@ template <int Dim>
 class RayMarch {
  public:
   struct Medium {
-    double lambda = 0.0;      ///< Opacity of the unseen [1/m].
-    double max_range = 80.0;  ///< [m]
-    double tau_power = 0.0;   ///< tau = r^-p.
+    double lambda = 0.0;                 ///< Opacity of the unseen [1/m].
+    double max_range = 80.0;             ///< [m]
+    double tau_power = 0.0;              ///< tau = r^-p.
     const Field<Dim>* weight = nullptr;  ///< w per node [1]; none: 1 everywhere.
   };
   /// `openness`: for each unseen node the probability that it opens when looked at, 0 where nothing is known [1]. Both must outlive this.

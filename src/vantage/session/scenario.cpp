@@ -84,7 +84,13 @@ void apply_unplaced(Scenario& scenario, const Setting& setting) {
   require(false, fmt::format("{}: no such option{}", setting.name, did_you_mean(setting.name, names)));
 }
 
-bool names_file(const std::string& spec) { return std::filesystem::exists(spec) || spec.find('/') != std::string::npos; }
+/// A built-in name is never a file, whatever lies about in the folder.
+bool names_file(const std::string& spec) {
+  const std::string name = spec.substr(0, spec.find(':'));
+  const auto& built_in = scene_list();
+  if (std::any_of(built_in.begin(), built_in.end(), [&](const SceneInfo& info) { return info.name == name; })) return false;
+  return std::filesystem::is_regular_file(spec) || spec.find('/') != std::string::npos;
+}
 
 /// File names made absolute, so that a run can be resumed from anywhere.
 std::string settled(const std::string& spec) {
@@ -175,7 +181,8 @@ std::vector<std::string> differences(Scenario wanted, Scenario here) {
   std::vector<std::string> found;
   if (wanted.scene != here.scene) found.push_back(fmt::format("scene.name = {} (here {})", wanted.scene, here.scene));
   if (wanted.explore.planner.weights != here.explore.planner.weights)
-    found.push_back(fmt::format("planner.weights = [{}] (here [{}])", fmt::join(wanted.explore.planner.weights, ","), fmt::join(here.explore.planner.weights, ",")));
+    found.push_back(fmt::format("planner.weights = [{}] (here [{}])", fmt::join(wanted.explore.planner.weights, ","),
+                                fmt::join(here.explore.planner.weights, ",")));
   if (wanted.start != here.start)
     found.push_back(fmt::format("scene.start = {} (here {})", fmt::join(wanted.start, ","), fmt::join(here.start, ",")));
   const std::vector<Option> left = list_options(wanted), right = list_options(here);

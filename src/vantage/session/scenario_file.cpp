@@ -32,7 +32,7 @@ std::string beside(const std::filesystem::path& folder, const std::string& scene
   for (std::size_t begin = 0; begin <= scene.size();) {
     const std::size_t end = std::min(scene.find('+', begin), scene.size());
     const std::string part = scene.substr(begin, end - begin);
-    out += (begin > 0 ? "+" : "") + (std::filesystem::exists(folder / part) && !part.empty() ? (folder / part).string() : part);
+    out += (begin > 0 ? "+" : "") + (std::filesystem::is_regular_file(folder / part) ? (folder / part).string() : part);
     begin = end + 1;
   }
   return out;
