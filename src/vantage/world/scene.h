@@ -47,8 +47,8 @@ struct SceneInfo {
 
 /// How a mesh file is read.
 struct SceneFileOptions {
-  enum class Up { file, y, z } up = Up::file;  ///< Up axis; `file`: what the file says, else z (y for OBJ? no: z).
-  double unit = 0.0;                           ///< Metres per file unit; 0: what the file says, else 1.
+  enum class Up { file, y, z } up = Up::file;  ///< Up axis; `file`: what DAE says, y for glTF, else z.
+  double unit = 0.0;                           ///< Metres per file unit, of a map per pixel; 0: what the file says, else 1 (map 0.05).
 };
 
 /// A built-in scene `NAME[:key=value,...]`, a mesh file (OBJ, PLY, STL, DAE, glTF, GLB), or a 2D occupancy map (`.yaml` of ROS, or the image).
