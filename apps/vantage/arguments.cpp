@@ -25,8 +25,10 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     std::string head = "  " + (is_positional ? option->get_name(true) : option->get_name(false, true));
     if (!is_positional && !option->get_type_name().empty()) head += " " + option->get_type_name();
-    if (head.size() + 2 > kHelpColumn) head += "\n" + std::string(kHelpColumn, ' ');
-    else head.resize(kHelpColumn, ' ');
+    if (head.size() + 2 > kHelpColumn)
+      head += "\n" + std::string(kHelpColumn, ' ');
+    else
+      head.resize(kHelpColumn, ' ');
     std::string out;
     std::size_t width = 0;
     for (const std::string& word : CLI::detail::split(option->get_description(), ' ')) {
@@ -49,10 +51,10 @@ CommandParser::CommandParser(const std::string& name, const std::string& usage, 
   app_.formatter(std::make_shared<HelpFormatter>());
   app_.allow_extras();
   app_.footer("Examples:\n" + examples);
-  app_.set_help_flag("-h,--help", "this text")->group("Other");
 }
 
-CLI::Option* CommandParser::option(const std::string& names, std::string& value, const std::string& type, const std::string& help, const std::string& group) {
+CLI::Option* CommandParser::option(const std::string& names, std::string& value, const std::string& type, const std::string& help,
+                                   const std::string& group) {
   return app_.add_option(names, value, help)->type_name(type)->take_last()->group(group);
 }
 
@@ -61,10 +63,13 @@ CLI::Option* CommandParser::flag(const std::string& names, bool& value, const st
 }
 
 bool CommandParser::parse(const Arguments& arguments) {
+  app_.set_help_flag("-h,--help", "this text")->group("Other");  // Last, so that it stands last.
   try {
     app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
-    std::cout << app_.help();
+    std::string help = app_.help();
+    for (std::size_t at = 0; (at = help.find("\n\n\n")) != std::string::npos;) help.erase(at, 1);
+    std::cout << help;
     return false;
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorCode::bad_input, error.what());
@@ -94,7 +99,8 @@ std::vector<double> numbers(const std::string& option, const std::string& text) 
   for (const std::string& part : CLI::detail::split(text, ',')) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    vantage::require(error == std::errc() && end == part.data() + part.size() && std::isfinite(value), fmt::format("{}: must be numbers between commas", text), option);
+    vantage::require(error == std::errc() && end == part.data() + part.size() && std::isfinite(value),
+                     fmt::format("{}: must be numbers between commas", text), option);
     values.push_back(value);
   }
   return values;

@@ -40,7 +40,11 @@ void add_flags(CommandParser& parser, Flags& flags) {
   parser.option("-o,--output", flags.folder, "RUN", "run folder (default runs/NAME, with the name of the scene or file)", run);
   parser.option("--max-scans", flags.max_scans, "N", "stop after so many scans, this time (>= 1); a later --resume goes further", run);
   parser.flag("--resume", flags.resume, "go on with the run in RUN; its options stay (only --max-scans and --threads may differ)", run);
-  parser.app().add_option("--remove", flags.remove, "with --resume: take scan K out of the log first (several: --remove 3 --remove 7); the log as it was stays in scans.log.bak")->type_name("K")->group(run);
+  parser.app()
+      .add_option("--remove", flags.remove,
+                  "with --resume: take scan K out of the log first (several: --remove 3 --remove 7); the log as it was stays in scans.log.bak")
+      ->type_name("K")
+      ->group(run);
   parser.flag("--force", flags.force, "replace the run in RUN", run);
   parser.option("--threads", flags.threads, "N", "at most so many threads (default: all cores); the results do not depend on it", run);
   parser.flag("--json", flags.json, "print result.json on stdout instead of the summary", output);
@@ -68,8 +72,10 @@ int exit_code(RunEnd end) {
 }
 
 void print_outcome(const vantage::RunOutcome& outcome, const Flags& flags) {
-  if (flags.json) fmt::print("{}", vantage::as_text(outcome.result));
-  else if (!flags.quiet) fmt::print("{}", summary(outcome));
+  if (flags.json)
+    fmt::print("{}", vantage::as_text(outcome.result));
+  else if (!flags.quiet)
+    fmt::print("{}", summary(outcome));
   std::fflush(stdout);
   if (outcome.end == RunEnd::no_plan) fmt::print(stderr, "vantage: {}\n", outcome.result["verdict"]["reason"].get<std::string>());
   if (outcome.end == RunEnd::interrupted && flags.json && !flags.quiet) fmt::print(stderr, "vantage: stopped; go on with {}\n", resume_hint(outcome));

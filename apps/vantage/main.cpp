@@ -13,8 +13,9 @@
 namespace {
 
 std::string help() {
-  std::string out = "vantage explores unknown places with a LiDAR: it scans, rebuilds the surfaces within a known error, works out what has not been\n"
-                    "seen, and goes where most of it will come into view.\n\nusage: vantage COMMAND …\n\n";
+  std::string out =
+      "vantage explores unknown places with a LiDAR: it scans, rebuilds the surfaces within a known error, works out what has not been\n"
+      "seen, and goes where most of it will come into view.\n\nusage: vantage COMMAND …\n\n";
   for (const Command& command : kCommands) out += fmt::format("  {:<12} {}\n", command.name, command.summary);
   return out +
          "\nStart here:\n"

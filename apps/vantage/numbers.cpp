@@ -11,8 +11,9 @@ std::string grouped(std::int64_t value) {
   return digits;
 }
 
-std::string duration(double seconds) {
-  if (seconds < 10.0) return fmt::format("{:.1f} s", seconds);
+std::string duration(double seconds) { return seconds < 10.0 ? fmt::format("{:.1f} s", seconds) : stopwatch(seconds); }
+
+std::string stopwatch(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::llround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);

@@ -51,11 +51,16 @@ std::string percent(double share) {
   return share >= 0.99 ? fmt::format("{:.2f} %", value) : fmt::format("{:.1f} %", value);
 }
 
+std::string start_line(const RunStart& start) {
+  return fmt::format("{}: {}D, {} lattice nodes{}", start.scene, start.dim, grouped(static_cast<std::int64_t>(start.nodes)),
+                     start.logged > 0 ? fmt::format(", {} scans from the log", start.logged) : "");
+}
+
 std::string step_line(const RunStep& step) {
   std::string place;
   for (const double v : step.vantage) place += fmt::format("{}{:.1f}", place.empty() ? "" : ", ", v);
-  return fmt::format("scan {:>3}  seen {:>7}  {:>9} points  at ({})  path {:.1f} m  {}{}", step.scan, percent(step.seen_fraction), grouped(step.points), place, step.path, duration(step.seconds),
-                     step.from_log ? "  from the log" : "");
+  return fmt::format("scan {:>3}  seen {:>7}  {:>9} points  at ({})  path {:.1f} m  {}{}", step.scan, percent(step.seen_fraction),
+                     grouped(step.points), place, step.path, duration(step.seconds), step.from_log ? "  from the log" : "");
 }
 
 }  // namespace
@@ -107,9 +112,6 @@ void RunProgress::begin(const RunStart& start) {
   const std::lock_guard lock(mutex_);
   start_ = start;
   stage_ = "scan";
-  if (loudness_ != Loudness::quiet && !live_)
-    print_line(fmt::format("{}: {}D, {} lattice nodes{}", start.scene, start.dim, grouped(static_cast<std::int64_t>(start.nodes)),
-                           start.logged > 0 ? fmt::format(", {} scans from the log", start.logged) : ""));
 }
 
 void RunProgress::stage(std::string_view name) {
@@ -121,7 +123,9 @@ void RunProgress::step(const RunStep& step) {
   const std::lock_guard lock(mutex_);
   steps_.push_back(step);
   points_ += step.points;
-  if (loudness_ == Loudness::verbose || (loudness_ == Loudness::normal && !live_)) print_line(step_line(step));
+  const bool lines = loudness_ == Loudness::verbose || (loudness_ == Loudness::normal && !live_);
+  if (lines && steps_.size() == 1) print_line(start_line(start_));  // Not before: an error of the first scan stands alone.
+  if (lines) print_line(step_line(step));
 }
 
 void RunProgress::warn(std::string_view message) {
@@ -162,9 +166,9 @@ std::string RunProgress::live_line(std::size_t width) const {
     constexpr std::size_t kBar = 14;  // Always keep room for a bar.
     if (2 + head.size() + 2 + 10 + 2 + kBar + 1 + tail.size() + more.size() <= width) tail += more;
   };
-  if (left >= 0.0) add(fmt::format("  ~{} left", duration(std::max(left, 1.0))));
+  if (left >= 0.0) add(fmt::format("  ~{} left", stopwatch(std::max(left, 1.0))));
   add(fmt::format("  {} points", rounded(static_cast<double>(points_))));
-  add(fmt::format("  {}", duration(std::floor(elapsed))));
+  add(fmt::format("  {}", stopwatch(elapsed)));
   const std::size_t used = 2 + head.size() + 2 + 10 + 2 + 1 + tail.size();
   if (used + 6 > width) return fmt::format("{} {}  {}", spin, head, percent(seen)).substr(0, width);
   const std::string filled = bar(seen, std::min<std::size_t>(width - used, 40));
@@ -174,7 +178,7 @@ std::string RunProgress::live_line(std::size_t width) const {
 
 StopSignals::StopSignals() {
   g_stop = 0;
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
   ::sigaction(SIGINT, &action, nullptr);

@@ -57,9 +57,13 @@ int reconstruct_command(const Arguments& arguments) {
   parser.flag("--json", json, "print the figures as JSON", "Output");
   parser.flag("-q,--quiet", quiet, "print nothing", "Output");
   for (const vantage::Option& option : list_options(options))
-    if (option.name == "eta") parser.option("--eta", eta, "METRES", fmt::format("{} ({}; default {})", option.doc, option.allowed(), option.text()), "Method");
+    if (option.name == "eta")
+      parser.option("--eta", eta, "METRES", fmt::format("{} ({}; default {})", option.doc, option.allowed(), option.text()), "Method");
   parser.flag("--paper", paper, "the paper's own behaviour: small cells dropped, best fit kept at the depth limit (surface.paper)", "Method");
-  parser.app().add_option("--set", sets, "any option of the stage surface; vantage config dump lists them")->type_name("surface.OPTION=VALUE")->group("Method");
+  parser.app()
+      .add_option("--set", sets, "any option of the stage surface; vantage config dump lists them")
+      ->type_name("surface.OPTION=VALUE")
+      ->group("Method");
   parser.option("--threads", threads, "N", "at most so many threads (default: all cores)", "Method");
   if (!parser.parse(arguments)) return 0;
   vantage::require(!clouds.empty(), "CLOUD is missing");
@@ -71,7 +75,9 @@ int reconstruct_command(const Arguments& arguments) {
   const std::vector<std::filesystem::path> paths(clouds.begin(), clouds.end());
   const vantage::AnyPoints points = vantage::read_clouds(paths);
   const vantage::Json surface = std::visit([&](const auto& p) { return reconstruct(p, options, path); }, points);
-  if (json) fmt::print("{}", vantage::as_text(surface));
-  else if (!quiet) fmt::print("{}{}\n", path.empty() ? "" : path + ": ", surface_sentence(surface, surface["dim"].get<int>()));
+  if (json)
+    fmt::print("{}", vantage::as_text(surface));
+  else if (!quiet)
+    fmt::print("{}{}\n", path.empty() ? "" : path + ": ", surface_sentence(surface, surface["dim"].get<int>()));
   return 0;
 }

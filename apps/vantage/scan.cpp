@@ -53,11 +53,14 @@ int scan_command(const Arguments& arguments) {
   ScenarioArguments scenario(parser);
   if (!parser.parse(arguments)) return 0;
   vantage::require(!scenario.scene().empty(), "SCENE is missing: vantage scene --list names some");
-  vantage::require(path.ends_with(".ply") || path.ends_with(".xyz") || path.ends_with(".log"), fmt::format("{}: must end in .ply, .xyz or .log", path), "-o");
+  vantage::require(path.ends_with(".ply") || path.ends_with(".xyz") || path.ends_with(".log"),
+                   fmt::format("{}: must end in .ply, .xyz or .log", path), "-o");
   const vantage::World world = make_world(scenario.scene(), scenario.settings());
   const std::vector<double> place = at.empty() ? world.scenario.start : numbers("--at", at);
   const vantage::Json result = std::visit([&](const auto& scene) { return take_scan(world, scene, place, path); }, world.scene);
-  if (json) fmt::print("{}", vantage::as_text(result));
-  else if (!quiet) fmt::print("{}: {} points of {} rays\n", path, grouped(result["points"].get<std::int64_t>()), grouped(result["rays"].get<std::int64_t>()));
+  if (json)
+    fmt::print("{}", vantage::as_text(result));
+  else if (!quiet)
+    fmt::print("{}: {} points of {} rays\n", path, grouped(result["points"].get<std::int64_t>()), grouped(result["rays"].get<std::int64_t>()));
   return 0;
 }

@@ -42,11 +42,15 @@ ScenarioArguments::ScenarioArguments(CommandParser& parser) {
   add(parser, "--grid", "CELLS", {"explore.grid"}, method);
   add(parser, "--clearance", "METRES", {"planner.clearance"}, method);
   add(parser, "--seed", "N", {"explore.seed", "sensor.seed"}, method);
-  parser.app().add_option("--set", sets_, "any option; vantage config dump lists all of them with unit, range and meaning")->type_name("STAGE.OPTION=VALUE")->group(method);
+  parser.app()
+      .add_option("--set", sets_, "any option; vantage config dump lists all of them with unit, range and meaning")
+      ->type_name("STAGE.OPTION=VALUE")
+      ->group(method);
   parser.option("--config", config_, "FILE", "a scenario file with some or all options; what is given here wins over it", method);
 }
 
-void ScenarioArguments::add(CommandParser& parser, const std::string& name, const std::string& type, std::vector<std::string> options, const std::string& group) {
+void ScenarioArguments::add(CommandParser& parser, const std::string& name, const std::string& type, std::vector<std::string> options,
+                            const std::string& group) {
   const std::string help = help_of(options.front());
   Flag& flag = flags_.emplace_back(Flag{name, "", std::move(options), nullptr});
   flag.option = parser.option(name, flag.value, type, help, group);

@@ -23,7 +23,8 @@ Json list_json() {
   Json all = Json::array();
   for (const vantage::SceneInfo& scene : vantage::scene_list()) {
     Json parameters = Json::array();
-    for (const auto& p : scene.parameters) parameters.push_back({{"name", p.name}, {"default", p.value}, {"low", p.low}, {"high", p.high}, {"doc", p.doc}});
+    for (const auto& p : scene.parameters)
+      parameters.push_back({{"name", p.name}, {"default", p.value}, {"low", p.low}, {"high", p.high}, {"doc", p.doc}});
     all.push_back({{"name", scene.name}, {"dim", scene.dim}, {"description", scene.description}, {"parameters", parameters}});
   }
   return all;
@@ -47,7 +48,11 @@ Json write_scene(const vantage::AnyScene& any, const std::string& path) {
       [&]<int Dim>(const vantage::Scene<Dim>& scene) -> Json {
         vantage::write_mesh(path, scene.mesh);
         const vantage::Box<Dim> box = scene.mesh.bounds();
-        return {{"file", path}, {"scene", scene.name}, {"dim", Dim}, {"vertices", scene.mesh.vertices.size()}, {"facets", scene.mesh.facets.size()},
+        return {{"file", path},
+                {"scene", scene.name},
+                {"dim", Dim},
+                {"vertices", scene.mesh.vertices.size()},
+                {"facets", scene.mesh.facets.size()},
                 {"bounds", {vantage::to_json<Dim>(box.low), vantage::to_json<Dim>(box.high)}}};
       },
       any);
@@ -78,7 +83,9 @@ int scene_command(const Arguments& arguments) {
   if (!up.empty()) settings.push_back({"scene.up", up, "--up"});
   if (!unit.empty()) settings.push_back({"scene.unit", unit, "--unit"});
   const Json result = write_scene(vantage::make_world(name, settings).scene, path);
-  if (json) fmt::print("{}", vantage::as_text(result));
-  else if (!quiet) fmt::print("{}: {} {}\n", path, grouped(result["facets"].get<std::int64_t>()), result["dim"] == 2 ? "segments" : "triangles");
+  if (json)
+    fmt::print("{}", vantage::as_text(result));
+  else if (!quiet)
+    fmt::print("{}: {} {}\n", path, grouped(result["facets"].get<std::int64_t>()), result["dim"] == 2 ? "segments" : "triangles");
   return 0;
 }

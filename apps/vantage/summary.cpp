@@ -17,19 +17,22 @@ std::string line(std::string_view key, const std::string& value) { return fmt::f
 double number(const Json& json) { return json.is_number() ? json.get<double>() : 0.0; }
 
 std::string seen_sentence(const Json& verdict) {
-  return fmt::format("{:.2f} % of what can be seen (between {:.2f} and {:.2f} %)", 100.0 * number(verdict["seen_fraction"]), 100.0 * number(verdict["seen_fraction_bounds"][0]),
-                     100.0 * number(verdict["seen_fraction_bounds"][1]));
+  return fmt::format("{:.2f} % of what can be seen (between {:.2f} and {:.2f} %)", 100.0 * number(verdict["seen_fraction"]),
+                     100.0 * number(verdict["seen_fraction_bounds"][0]), 100.0 * number(verdict["seen_fraction_bounds"][1]));
 }
 
 std::string unseen_sentence(const Json& unseen, const char* unit) {
   if (unseen.empty()) return "nothing of note";
-  return fmt::format("{} {}, the largest {:.1f} {} ({})", unseen.size(), unseen.size() == 1 ? "place" : "places", number(unseen[0]["volume_m3"]), unit,
-                     unseen[0]["reason"].get<std::string>());
+  return fmt::format("{} {}, the largest {:.1f} {} ({})", unseen.size(), unseen.size() == 1 ? "place" : "places", number(unseen[0]["volume_m3"]),
+                     unit, unseen[0]["reason"].get<std::string>());
 }
 
 std::string headline(const vantage::RunOutcome& outcome) {
   const Json& verdict = outcome.result["verdict"];
-  const std::string state = outcome.end == RunEnd::interrupted ? "stopped" : verdict["complete"].get<bool>() ? "complete" : outcome.end == RunEnd::scan_limit ? "limit reached" : "not complete";
+  const std::string state = outcome.end == RunEnd::interrupted  ? "stopped"
+                            : verdict["complete"].get<bool>()   ? "complete"
+                            : outcome.end == RunEnd::scan_limit ? "limit reached"
+                                                                : "not complete";
   return fmt::format("{}: {}. {}\n", outcome.result["scene"].get<std::string>(), state, verdict["reason"].get<std::string>());
 }
 
@@ -47,13 +50,19 @@ std::string value_text(const Json& value) {
   return out;
 }
 
-void add_lines(const Json& json, const std::string& prefix, std::vector<std::pair<std::string, std::string>>& lines) {
+std::string lines_of(const Json& json, std::size_t indent) {
+  std::size_t width = 0;
+  for (const auto& [key, value] : json.items()) width = value.is_object() ? width : std::max(width, key.size());
+  std::string out;
   for (const auto& [key, value] : json.items()) {
-    std::string name = prefix + key;
+    std::string name = key;
     std::replace(name.begin(), name.end(), '_', ' ');
-    if (value.is_object()) add_lines(value, name + " ", lines);
-    else lines.emplace_back(name, value_text(value));
+    if (value.is_object())
+      out += fmt::format("{:{}}{}\n{}", "", indent, name, lines_of(value, indent + 2));
+    else
+      out += fmt::format("{:{}}{:<{}}  {}\n", "", indent, name, width, value_text(value));
   }
+  return out;
 }
 
 }  // namespace
@@ -82,12 +91,4 @@ std::string summary(const vantage::RunOutcome& outcome) {
 
 std::string resume_hint(const vantage::RunOutcome& outcome) { return fmt::format("vantage explore --resume -o {}", outcome.folder.string()); }
 
-std::string as_lines(const Json& json) {
-  std::vector<std::pair<std::string, std::string>> lines;
-  add_lines(json, "", lines);
-  std::size_t width = 0;
-  for (const auto& [key, value] : lines) width = std::max(width, key.size());
-  std::string out;
-  for (const auto& [key, value] : lines) out += fmt::format("{:<{}}  {}\n", key, width, value);
-  return out;
-}
+std::string as_lines(const Json& json) { return lines_of(json, 0); }

@@ -79,7 +79,8 @@ Json write_visibility(const std::vector<Patch<Dim>>& patches, const Flags& flags
   const ImageArray arrays[] = {{"phi", std::span<const float>(phi.values)}};
   write_file(flags.path, image_as_vti<Dim>(window, arrays));
   const auto seen = std::count_if(phi.values.begin(), phi.values.end(), [](float v) { return v > 0.0F; });
-  return {{"file", flags.path}, {"nodes", window.size()}, {"voxel_m", voxel}, {"eta_m", eta}, {"seen_nodes", seen}, {"seen_fraction", static_cast<double>(seen) / static_cast<double>(window.size())}};
+  return {{"file", flags.path}, {"nodes", window.size()}, {"voxel_m", voxel},
+          {"eta_m", eta},       {"seen_nodes", seen},     {"seen_fraction", static_cast<double>(seen) / static_cast<double>(window.size())}};
 }
 
 }  // namespace
@@ -104,7 +105,10 @@ int visibility_command(const Arguments& arguments) {
   require(flags.path.ends_with(".vti"), fmt::format("{}: must end in .vti", flags.path), "-o");
   const ThreadLimit limit(flags.threads.empty() ? 0 : static_cast<int>(whole_number("--threads", flags.threads, 1, 1024)));
   const Json result = std::visit([&](const auto& patches) { return write_visibility(patches, flags); }, read_patches(flags.patches));
-  if (flags.json) fmt::print("{}", as_text(result));
-  else if (!flags.quiet) fmt::print("{}: {:.1f} % of {} nodes are seen\n", flags.path, 100.0 * result["seen_fraction"].get<double>(), grouped(result["nodes"].get<std::int64_t>()));
+  if (flags.json)
+    fmt::print("{}", as_text(result));
+  else if (!flags.quiet)
+    fmt::print("{}: {:.1f} % of {} nodes are seen\n", flags.path, 100.0 * result["seen_fraction"].get<double>(),
+               grouped(result["nodes"].get<std::int64_t>()));
   return 0;
 }

@@ -165,7 +165,7 @@ struct Explorer<Dim>::Impl {
 template <int Dim>
   requires SpatialDim<Dim>
 Snapshot<Dim> Explorer<Dim>::Impl::snapshot() const {
-  constexpr std::size_t kPlaces = 6000;
+  constexpr std::size_t kPlaces = 4000;
   const BeliefView<Dim> view = belief.view();
   Snapshot<Dim> cut;
   cut.step = static_cast<int>(steps.size()) - 1;

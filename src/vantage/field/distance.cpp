@@ -59,29 +59,40 @@ struct Transform {
   }
 
  private:
-  /// One axis: each node takes the best of its line.
+  /// One axis: each node takes the best of its line. Lines come in tiles of neighbours, so that memory is read in order whatever the axis.
   void pass(int axis) {
     const Grid<Dim>& grid = squared.window;
     const auto length = static_cast<std::size_t>(grid.extent[axis]);
     if (length == 0) return;
     const std::size_t stride = grid.stride(axis), lines = grid.size() / length;
-    parallel_chunks(lines, 64, [&](std::size_t begin, std::size_t end) {
+    const bool with_sites = !site.values.empty();
+    parallel_chunks(lines, 32, [&](std::size_t begin, std::size_t end) {
       Envelope envelope;
-      std::vector<std::int32_t> height(length), lowest(length), old_site(length);
-      for (std::size_t line = begin; line < end; ++line) {
-        const std::size_t base = (line / stride) * stride * length + line % stride;
-        for (std::size_t i = 0; i < length; ++i) {
-          height[i] = squared[base + i * stride];
-          if (!site.values.empty()) old_site[i] = site[base + i * stride];
+      const std::size_t count = end - begin;
+      std::vector<std::int32_t> height(count * length), lowest(length), old_site(with_sites ? count * length : 0);
+      std::vector<std::size_t> start(count);
+      for (std::size_t k = 0; k < count; ++k) start[k] = ((begin + k) / stride) * stride * length + (begin + k) % stride;
+      for (std::size_t i = 0; i < length; ++i)
+        for (std::size_t k = 0; k < count; ++k) {
+          height[k * length + i] = squared[start[k] + i * stride];
+          if (with_sites) old_site[k * length + i] = site[start[k] + i * stride];
         }
-        envelope.build(height, lowest);
+      std::vector<std::int32_t> new_height(count * length, -1), new_site(with_sites ? count * length : 0, kNoSite);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::span<const std::int32_t> line(height.data() + k * length, length);
+        envelope.build(line, lowest);
         for (std::size_t i = 0; i < length && lowest[i] != kNoSite; ++i) {
           const auto from = static_cast<std::size_t>(lowest[i]);
           const auto step = static_cast<std::int32_t>(i) - lowest[i];
-          squared[base + i * stride] = height[from] + step * step;
-          if (!site.values.empty()) site[base + i * stride] = old_site[from];
+          new_height[k * length + i] = line[from] + step * step;
+          if (with_sites) new_site[k * length + i] = old_site[k * length + from];
         }
       }
+      for (std::size_t i = 0; i < length; ++i)
+        for (std::size_t k = 0; k < count; ++k) {
+          squared[start[k] + i * stride] = new_height[k * length + i];
+          if (with_sites) site[start[k] + i * stride] = new_site[k * length + i];
+        }
     });
   }
 };

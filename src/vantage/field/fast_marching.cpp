@@ -65,53 +65,68 @@ Index<Dim> steepest(const Field<Dim>& arrival, const Index<Dim>& node) {
   return best;
 }
 
-}  // namespace
-
+/// Upwind value of a node from its accepted neighbours.
 template <int Dim>
-  requires SpatialDim<Dim>
-Field<Dim> fast_march(const Field<Dim, std::uint8_t>& passable, std::span<const Seed> seeds, std::optional<std::size_t> target) {
+double upwind_value(const Field<Dim>& arrival, const Field<Dim, std::uint8_t>& done, const Index<Dim>& node) {
+  const Grid<Dim>& grid = arrival.window;
+  const std::size_t n = grid.linear(node);
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  std::array<double, Dim> values;
+  for (int a = 0; a < Dim; ++a) {
+    const std::size_t stride = grid.stride(a);
+    const float low = node[a] > 0 && done[n - stride] != 0 ? arrival[n - stride] : kFar;
+    const float high = node[a] + 1 < grid.extent[a] && done[n + stride] != 0 ? arrival[n + stride] : kFar;
+    values[static_cast<std::size_t>(a)] = std::min(low, high);
+  }
+  return solve_upwind<Dim>(values, grid.spacing);
+}
+
+/// The front: nodes in order of value plus `still_to_go`, until `target` is accepted.
+template <int Dim, class StillToGo>
+Field<Dim> march(const Field<Dim, std::uint8_t>& passable, std::span<const Seed> seeds, StillToGo&& still_to_go, std::size_t target) {
   const Grid<Dim>& grid = passable.window;
   constexpr float kFar = std::numeric_limits<float>::infinity();
   Field<Dim> arrival(grid, kFar);
   Field<Dim, std::uint8_t> done(grid);
   using Entry = std::pair<float, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  for (const auto& [node, value] : seeds) {
-    if (passable[node] == 0 || arrival[node] <= value) continue;
+  const auto offer = [&](std::size_t node, float value) {
+    if (passable[node] == 0 || done[node] != 0 || arrival[node] <= value) return;
     arrival[node] = value;
-    front.emplace(value, node);
-  }
+    front.emplace(value + still_to_go(node), node);
+  };
+  for (const auto& [node, value] : seeds) offer(node, value);
   while (!front.empty()) {
-    const auto [value, node] = front.top();
+    const std::size_t node = front.top().second;
     front.pop();
     if (done[node] != 0) continue;
     done[node] = 1;
-    if (target && node == *target) break;
+    if (node == target) break;
     const Index<Dim> here = grid.local(node);
-    for (int axis = 0; axis < Dim; ++axis) {
-      for (const int side : {-1, 1}) {
-        Index<Dim> next = here;
-        next[axis] += side;
-        if (!grid.inside(next)) continue;
-        const std::size_t n = grid.linear(next);
-        if (passable[n] == 0 || done[n] != 0) continue;
-        std::array<double, Dim> upwind;
-        for (int a = 0; a < Dim; ++a) {
-          const std::size_t stride = grid.stride(a);
-          const float low = next[a] > 0 && done[n - stride] != 0 ? arrival[n - stride] : kFar;
-          const float high = next[a] + 1 < grid.extent[a] && done[n + stride] != 0 ? arrival[n + stride] : kFar;
-          upwind[static_cast<std::size_t>(a)] = std::min(low, high);
-        }
-        const auto u = static_cast<float>(solve_upwind<Dim>(upwind, grid.spacing));
-        if (u >= arrival[n]) continue;
-        arrival[n] = u;
-        front.emplace(u, n);
-      }
+    for (int side = 0; side < 2 * Dim; ++side) {
+      Index<Dim> next = here;
+      next[side / 2] += side % 2 == 0 ? -1 : 1;
+      if (grid.inside(next)) offer(grid.linear(next), static_cast<float>(upwind_value(arrival, done, next)));
     }
   }
   for (std::size_t i = 0; i < arrival.values.size(); ++i)
     if (done[i] == 0) arrival[i] = kFar;  // Tentative values of an early end mean nothing.
   return arrival;
+}
+
+}  // namespace
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Field<Dim> fast_march(const Field<Dim, std::uint8_t>& passable, std::span<const Seed> seeds) {
+  return march(passable, seeds, [](std::size_t) { return 0.0F; }, passable.values.size());
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Field<Dim> fast_march_to(const Field<Dim, std::uint8_t>& passable, std::span<const Seed> seeds, std::size_t target) {
+  const Vec<Dim> goal = passable.window.position(target);
+  return march(passable, seeds, [&](std::size_t node) { return static_cast<float>((passable.window.position(node) - goal).norm()); }, target);
 }
 
 template <int Dim>
@@ -139,7 +154,8 @@ std::vector<Vec<Dim>> descend(const Field<Dim>& arrival, std::size_t from) {
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                                                \
-  template Field<D> fast_march<D>(const Field<D, std::uint8_t>&, std::span<const Seed>, std::optional<std::size_t>);          \
+  template Field<D> fast_march<D>(const Field<D, std::uint8_t>&, std::span<const Seed>);                                      \
+  template Field<D> fast_march_to<D>(const Field<D, std::uint8_t>&, std::span<const Seed>, std::size_t);                      \
   template std::vector<Vec<D>> descend<D>(const Field<D>&, std::size_t);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

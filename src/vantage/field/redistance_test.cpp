@@ -99,7 +99,7 @@ TYPED_TEST(Redistance, PathsGoThroughTheGap) {
   to[0] = 0.5;
   const std::size_t start = open.window.linear(open.window.nearest(from)), goal = open.window.linear(open.window.nearest(to));
   const Seed seed{goal, 0.0F};
-  const Field<Dim> u = fast_march(open, std::span(&seed, 1), start);
+  const Field<Dim> u = fast_march_to(open, std::span(&seed, 1), start);
   const std::vector<Vec<Dim>> path = descend(u, start);
   ASSERT_GE(path.size(), 3U);
   EXPECT_LT((path.front() - from).norm(), 1e-6);

@@ -32,16 +32,22 @@ Moments<Dim> moments(std::span<const Site<Dim>> sites, const Site<Dim>& base, in
     for (int i = 0; i < Moments<Dim>::kProducts; ++i) total.product[i] += product[i];
   }
   total.count = static_cast<std::int64_t>(sites.size());
+  for (int i = 0, k = 0; i < Dim; ++i)  // From relative to the base to absolute.
+    for (int j = i; j < Dim; ++j, ++k) {
+      const WideInt x = base[i], y = base[j];
+      total.product[k] += x * total.sum[j] + y * total.sum[i] + total.count * x * y;
+    }
+  for (int i = 0; i < Dim; ++i) total.sum[i] += static_cast<WideInt>(total.count) * base[i];
   return total;
 }
 
 template <int Dim>
-Frame<Dim> principal_frame(const Moments<Dim>& m, const Site<Dim>& base, double step) {
+Frame<Dim> principal_frame(const Moments<Dim>& m, double step) {
   const double count = static_cast<double>(m.count);
   Frame<Dim> frame;
   Eigen::Matrix<double, Dim, Dim> covariance;
   for (int i = 0, k = 0; i < Dim; ++i) {
-    frame.origin[i] = (static_cast<double>(base[i]) + static_cast<double>(m.sum[i]) / count) * step;
+    frame.origin[i] = static_cast<double>(m.sum[i]) / count * step;
     for (int j = i; j < Dim; ++j, ++k)
       covariance(i, j) = covariance(j, i) = static_cast<double>(m.count * m.product[k] - m.sum[i] * m.sum[j]) / (count * count);
   }
@@ -58,7 +64,7 @@ Frame<Dim> principal_frame(const Moments<Dim>& m, const Site<Dim>& base, double 
 #define VANTAGE_INSTANTIATE(D)                                                   \
   template struct Moments<D>;                                                    \
   template Moments<D> moments<D>(std::span<const Site<D>>, const Site<D>&, int); \
-  template Frame<D> principal_frame<D>(const Moments<D>&, const Site<D>&, double);
+  template Frame<D> principal_frame<D>(const Moments<D>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
 

@@ -15,7 +15,7 @@ using Site = std::array<std::uint32_t, Dim>;
 /// Wide enough for sums of squares of 2^31 sites, so that moments do not depend on the order of the points.
 __extension__ using WideInt = __int128;
 
-/// Exact sums over sites, relative to a `base` that the user remembers.
+/// Exact sums over sites.
 template <int Dim>
   requires SpatialDim<Dim>
 struct Moments {
@@ -27,7 +27,7 @@ struct Moments {
   void add(const Moments& other);
 };
 
-/// Moments of `sites` relative to `base`; every site lies in [base, base + 2^bits) in each axis. Exact for fewer than 2^31 sites.
+/// Moments of `sites`, which lie in [base, base + 2^bits) in each axis: the smaller, the faster. Exact for fewer than 2^31 sites.
 template <int Dim>
 [[nodiscard]] Moments<Dim> moments(std::span<const Site<Dim>> sites, const Site<Dim>& base, int bits);
 
@@ -45,6 +45,6 @@ struct Frame {
 
 /// Principal component analysis of sites with `moments` (count > 0); a site x lies at `step * x` [m]. A pure function of the multiset of sites.
 template <int Dim>
-[[nodiscard]] Frame<Dim> principal_frame(const Moments<Dim>& moments, const Site<Dim>& base, double step);
+[[nodiscard]] Frame<Dim> principal_frame(const Moments<Dim>& moments, double step);
 
 }  // namespace vantage

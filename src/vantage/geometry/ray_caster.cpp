@@ -62,7 +62,8 @@ class ShearedRay {
       depths[i] = v[along_] * depth_;
     }
     const auto w = weights(offsets);
-    if (std::any_of(w.begin(), w.end(), [](double x) { return x < 0.0; }) && std::any_of(w.begin(), w.end(), [](double x) { return x > 0.0; })) return kNaN;
+    if (std::any_of(w.begin(), w.end(), [](double x) { return x < 0.0; }) && std::any_of(w.begin(), w.end(), [](double x) { return x > 0.0; }))
+      return kNaN;
     double sum = 0.0, weighted = 0.0;
     for (int i = 0; i < Dim; ++i) {
       sum += w[i];
@@ -142,7 +143,8 @@ using Handle = std::unique_ptr<void, Release<Pointer, release>>;
 void throw_device_error(RTCError error, const char* message) {
   if (error == RTC_ERROR_NONE) return;
   const bool memory = error == RTC_ERROR_OUT_OF_MEMORY;
-  throw Error(memory ? ErrorCode::memory : ErrorCode::bad_input, std::string("ray casting: ") + (message ? message : "Embree cannot build the scene"));
+  throw Error(memory ? ErrorCode::memory : ErrorCode::bad_input,
+              std::string("ray casting: ") + (message ? message : "Embree cannot build the scene"));
 }
 
 template <int Dim>
@@ -150,7 +152,8 @@ void check(const Mesh<Dim>& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     require(mesh.vertices[i].allFinite(), "vertex " + std::to_string(i) + " of the mesh is not finite");
   for (std::size_t i = 0; i < mesh.facets.size(); ++i)
-    for (const std::uint32_t v : mesh.facets[i]) require(v < mesh.vertices.size(), "facet " + std::to_string(i) + " of the mesh names vertex " + std::to_string(v));
+    for (const std::uint32_t v : mesh.facets[i])
+      require(v < mesh.vertices.size(), "facet " + std::to_string(i) + " of the mesh names vertex " + std::to_string(v));
 }
 
 }  // namespace

@@ -8,15 +8,15 @@
 
 namespace vantage {
 
-/// First hits of rays with a mesh: triangles in 3D, line segments in 2D. Embree walks the boxes and every facet is tested in double, so a hit does not
-/// depend on Embree's version or the machine's vector width: it is the least (range, index) of all facets. Shared edges and corners do not leak; a
-/// facet seen edge-on is not met. Throws bad_input for a vertex that is not finite or an index out of range.
+/// First hits of rays with a mesh: triangles in 3D, line segments in 2D. Embree walks the boxes and every facet is tested in double, so a hit does
+/// not depend on Embree's version or the machine's vector width: it is the least (range, index) of all facets. Shared edges and corners do not leak;
+/// a facet seen edge-on is not met. Throws bad_input for a vertex that is not finite or an index out of range.
 template <int Dim>
   requires SpatialDim<Dim>
 class RayCaster {
  public:
   struct Hit {
-    double range = kInfinity;       ///< [m]; infinity: nothing met.
+    double range = kInfinity;          ///< [m]; infinity: nothing met.
     std::uint32_t facet = 0xffffffff;  ///< Index into mesh.facets.
   };
 

@@ -64,8 +64,10 @@ OracleHit<Dim> brute_force(const Mesh<Dim>& mesh, const Vec<Dim>& origin, const 
     edge = std::min(edge, 1.0 - solution.template head<Dim - 1>().sum());
     const double t = solution[Dim - 1];
     if (t < -1e-9 || edge < -1e-9 || t > best.range) continue;
-    if (t < 1e-9 || edge < 1e-9) best.doubtful = true;
-    else best.range = t, best.facet = f;
+    if (t < 1e-9 || edge < 1e-9)
+      best.doubtful = true;
+    else
+      best.range = t, best.facet = f;
   }
   return best;
 }

@@ -68,7 +68,7 @@ void sync_folder(const std::filesystem::path& path) {
 std::string read_file(const std::filesystem::path& path) {
   const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) fail(path, "cannot open");
-  struct stat status {};
+  struct stat status{};
   if (::fstat(file.get(), &status) != 0) fail(path, "cannot read");
   if (S_ISDIR(status.st_mode)) throw Error(ErrorCode::io, "is a folder, not a file", path.string());
   require_memory(static_cast<double>(status.st_size), 1.0, path.string());

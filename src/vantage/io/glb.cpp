@@ -135,8 +135,10 @@ std::string surface_as_glb(std::span<const Patch<Dim>> patches, std::span<const 
     std::vector<Vec3f> corners;
     for (const Vec<Dim>& corner : patch.corners()) corners.push_back(local(corner));
     Primitive& primitive = by_rank[patch.rank()];
-    if (patch.rank() == 2) add_polygon(primitive, corners);
-    else primitive.positions.insert(primitive.positions.end(), corners.begin(), corners.end());
+    if (patch.rank() == 2)
+      add_polygon(primitive, corners);
+    else
+      primitive.positions.insert(primitive.positions.end(), corners.begin(), corners.end());
   }
   for (const Vec<Dim>& p : path) by_rank[3].positions.push_back(local(p));
 
@@ -144,9 +146,11 @@ std::string surface_as_glb(std::span<const Patch<Dim>> patches, std::span<const 
   Json primitives = Json::array();
   const float half_height = box.empty() ? 0.0F : static_cast<float>(0.5 * box.size()[2]);
   for (const Primitive& primitive : by_rank)
-    if (primitive.positions.size() > static_cast<std::size_t>(primitive.mode == kLineStrip)) primitives.push_back(write_primitive(primitive, buffer, -half_height, half_height));
+    if (primitive.positions.size() > static_cast<std::size_t>(primitive.mode == kLineStrip))
+      primitives.push_back(write_primitive(primitive, buffer, -half_height, half_height));
   // A quarter turn about x brings z up; glTF's own up axis is y.
-  Json node = {{"name", "surface"}, {"rotation", {-0.7071067811865476, 0.0, 0.0, 0.7071067811865476}}, {"translation", {center[0], center[2], -center[1]}}};
+  Json node = {
+      {"name", "surface"}, {"rotation", {-0.7071067811865476, 0.0, 0.0, 0.7071067811865476}}, {"translation", {center[0], center[2], -center[1]}}};
   Json json = {{"asset", {{"version", "2.0"}, {"generator", "vantage"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
   if (!primitives.empty()) {
     node["mesh"] = 0;

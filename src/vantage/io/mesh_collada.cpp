@@ -101,11 +101,16 @@ class Collada {
     Transform here = parent;
     for (Node child : node.children()) {
       const std::string_view kind = child.name();
-      if (kind == "instance_geometry") place_shape(target(child, "url"), here);
-      else if (kind == "instance_controller") place_skin(target(child, "url").child("skin"), here);
-      else if (kind == "instance_node") place(target(child, "url"), here, depth + 1);
-      else if (kind == "node") place(child, here, depth + 1);
-      else here = here * transform(child);
+      if (kind == "instance_geometry")
+        place_shape(target(child, "url"), here);
+      else if (kind == "instance_controller")
+        place_skin(target(child, "url").child("skin"), here);
+      else if (kind == "instance_node")
+        place(target(child, "url"), here, depth + 1);
+      else if (kind == "node")
+        place(child, here, depth + 1);
+      else
+        here = here * transform(child);
     }
   }
 
@@ -156,10 +161,14 @@ class Collada {
     for (Node p : primitive.children("p")) {
       std::vector<std::int64_t> corners;
       const std::vector<std::int64_t> all = integers(p.text().get());
-      for (auto i = static_cast<std::size_t>(offset); i < all.size(); i += static_cast<std::size_t>(step)) corners.push_back(all[i] < 0 ? -1 : first + all[i]);
-      if (kind == "polylist") add_polygons(corners, lengths, shape);
-      else if (kind == "polygons") add_polygons(corners, {static_cast<std::int64_t>(corners.size())}, shape);
-      else add_triangles(corners, strips ? 'S' : fans ? 'F' : 'T', shape);
+      for (auto i = static_cast<std::size_t>(offset); i < all.size(); i += static_cast<std::size_t>(step))
+        corners.push_back(all[i] < 0 ? -1 : first + all[i]);
+      if (kind == "polylist")
+        add_polygons(corners, lengths, shape);
+      else if (kind == "polygons")
+        add_polygons(corners, {static_cast<std::int64_t>(corners.size())}, shape);
+      else
+        add_triangles(corners, strips ? 'S' : fans ? 'F' : 'T', shape);
     }
   }
 
@@ -167,7 +176,8 @@ class Collada {
     std::size_t begin = 0;
     for (const std::int64_t length : lengths) {
       if (length < 0 || static_cast<std::size_t>(length) > corners.size() - begin) fail("<polylist>: more corners in <vcount> than in <p>");
-      shape.corners.insert(shape.corners.end(), corners.begin() + static_cast<std::ptrdiff_t>(begin), corners.begin() + static_cast<std::ptrdiff_t>(begin) + length);
+      shape.corners.insert(shape.corners.end(), corners.begin() + static_cast<std::ptrdiff_t>(begin),
+                           corners.begin() + static_cast<std::ptrdiff_t>(begin) + length);
       shape.ends.push_back(shape.corners.size());
       begin += static_cast<std::size_t>(length);
     }
@@ -210,7 +220,8 @@ class Collada {
 SceneGraph parse_collada(std::string_view bytes, const std::string& name) {
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(bytes.data(), bytes.size());
-  if (!result) throw Error(ErrorCode::bad_input, fmt::format("not well-formed XML: {}", result.description()), fmt::format("{}:{}", name, result.offset));
+  if (!result)
+    throw Error(ErrorCode::bad_input, fmt::format("not well-formed XML: {}", result.description()), fmt::format("{}:{}", name, result.offset));
   const Node root = document.child("COLLADA"), asset = root.child("asset");
   require(root, "not a COLLADA file: lacks <COLLADA>", name);
   SceneGraph graph;

@@ -77,7 +77,8 @@ char obj_facet(const Mesh<3>&) { return 'f'; }
 
 template <int Dim>
 std::string ply_bytes(const Mesh<Dim>& mesh) {
-  std::string out = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n", mesh.vertices.size());
+  std::string out = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
+                                mesh.vertices.size());
   out += fmt::format(fmt::runtime(ply_facets(mesh)), mesh.facets.size()) + "end_header\n";
   for (const Vec<Dim>& v : mesh.vertices) append(out, std::array<double, 3>{in_space(v)[0], in_space(v)[1], in_space(v)[2]});
   for (const auto& facet : mesh.facets) append_ply_facet(out, facet);
@@ -96,7 +97,9 @@ std::string obj_bytes(const Mesh<Dim>& mesh) {
   return out;
 }
 
-std::string stl_bytes(const Mesh<2>&, const std::string& name) { throw Error(ErrorCode::bad_input, "STL holds triangles only: must be .ply or .obj for a plane scene", name); }
+std::string stl_bytes(const Mesh<2>&, const std::string& name) {
+  throw Error(ErrorCode::bad_input, "STL holds triangles only: must be .ply or .obj for a plane scene", name);
+}
 std::string stl_bytes(const Mesh<3>& mesh, const std::string&) {
   std::string out(80, ' ');
   append(out, static_cast<std::uint32_t>(mesh.facets.size()));
@@ -139,7 +142,8 @@ Mesh<3> read_mesh(const std::filesystem::path& path, const MeshFileOptions& opti
 template <int Dim>
 void write_mesh(const std::filesystem::path& path, const Mesh<Dim>& mesh) {
   const std::string extension = extension_of(path);
-  require(extension == ".ply" || extension == ".obj" || extension == ".stl", "cannot write such a mesh: the name must end in .ply, .obj or .stl", path.string());
+  require(extension == ".ply" || extension == ".obj" || extension == ".stl", "cannot write such a mesh: the name must end in .ply, .obj or .stl",
+          path.string());
   write_file(path, extension == ".ply" ? ply_bytes(mesh) : extension == ".obj" ? obj_bytes(mesh) : stl_bytes(mesh, path.string()));
 }
 

@@ -15,8 +15,8 @@ struct MeshFileOptions {
 
 /// Triangles of an OBJ, PLY, STL, OFF, DAE, glTF or GLB file, in metres, z up (y up turns into z up, x stays). Node transforms are applied,
 /// polygons cut into triangles (corners - 2 each, in the order of the file), equal vertices joined, unused ones left out. Numbers stay double
-/// where the format has them. Throws io when a file cannot be read; bad_input, naming the file, when it is not such a file, is cut short, has a vertex that
-/// is not finite, an index out of range or no triangles.
+/// where the format has them. Throws io when a file cannot be read; bad_input, naming the file, when it is not such a file, is cut short, has a
+/// vertex that is not finite, an index out of range or no triangles.
 [[nodiscard]] Mesh<3> read_mesh(const std::filesystem::path& path, const MeshFileOptions& options = {});
 
 /// Whether the file's name ends like a mesh that `read_mesh` knows.

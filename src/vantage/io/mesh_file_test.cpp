@@ -46,7 +46,8 @@ double area(const Mesh<3>& mesh) {
 
 /// Mesh of a file that holds `text`.
 Mesh<3> read_text(const std::string& name, const std::string& text, const MeshFileOptions& options = {}) {
-  const ScratchFolder folder;
+  static const ScratchFolder folder;
+  std::filesystem::remove(folder / name);  // Writing over a file would wait for the disk.
   std::ofstream(folder / name, std::ios::binary) << text;
   return read_mesh(folder / name, options);
 }
@@ -98,7 +99,8 @@ TEST(MeshFile, UpAxisAndUnit) {
 }
 
 TEST(MeshFile, ObjFinePoints) {
-  const Mesh<3> mesh = read_text("a.OBJ", "# c\r\nv 0 0 0\r\nv 1. 0 0 # x\r\nv +1 1 0\r\nv 0 1 0\r\nvn 0 0 1\r\nf 1//1 2//1 \\\r\n 3//1\r\nf -4/1/1 -2 -1\r\n");
+  const Mesh<3> mesh =
+      read_text("a.OBJ", "# c\r\nv 0 0 0\r\nv 1. 0 0 # x\r\nv +1 1 0\r\nv 0 1 0\r\nvn 0 0 1\r\nf 1//1 2//1 \\\r\n 3//1\r\nf -4/1/1 -2 -1\r\n");
   EXPECT_EQ(mesh.facets, (std::vector<Mesh<3>::Facet>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(mesh.vertices.size(), 4U);
 }
@@ -111,8 +113,9 @@ TEST(MeshFile, PolygonsAreCutWithinTheirOutline) {
 }
 
 TEST(MeshFile, PlyOfEveryKind) {
-  const std::string head = "ply\nformat {} 1.0\nelement vertex 3\nproperty uchar red\nproperty float x\nproperty double y\nproperty short z\nelement face 1\n"
-                           "property list uchar uint vertex_index\nend_header\n";
+  const std::string head =
+      "ply\nformat {} 1.0\nelement vertex 3\nproperty uchar red\nproperty float x\nproperty double y\nproperty short z\nelement face 1\n"
+      "property list uchar uint vertex_index\nend_header\n";
   const auto with = [&](const std::string& format) { return std::string(head).replace(head.find("{}"), 2, format); };
   const std::vector<Vec<3>> truth{{0, 0, 7}, {1.5, 0, 7}, {0, 2.5, -7}};
   EXPECT_EQ(read_text("a.ply", with("ascii") + "255 0 0 7\n1 1.5 0 7 9 0 2.5 -7\n3 0 1 2\n").vertices, truth);
@@ -128,13 +131,15 @@ TEST(MeshFile, PlyOfEveryKind) {
     for (const std::uint32_t i : {0U, 1U, 2U}) put(i);
     const std::string bytes = with(big ? "binary_big_endian" : "binary_little_endian") + body;
     EXPECT_EQ(read_text("a.ply", bytes).vertices, truth);
-    for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_THAT(error_of([&] { (void)read_text("a.ply", bytes.substr(0, n)); }), testing::StartsWith("2 ")) << n;
+    for (std::size_t n = 0; n < bytes.size(); ++n)
+      EXPECT_THAT(error_of([&] { (void)read_text("a.ply", bytes.substr(0, n)); }), testing::StartsWith("2 ")) << n;
   }
 }
 
 TEST(MeshFile, ColladaUnitsAxesAndNodes) {
   const auto dae = [](const std::string& asset) {
-    return "<COLLADA><asset>" + asset + R"(</asset><library_geometries><geometry id="g"><mesh><source id="s"><float_array id="f" count="9">0 0 0 1 0 0 0 0 2</float_array>
+    return "<COLLADA><asset>" + asset +
+           R"(</asset><library_geometries><geometry id="g"><mesh><source id="s"><float_array id="f" count="9">0 0 0 1 0 0 0 0 2</float_array>
       <technique_common><accessor source="#f" count="3" stride="3"/></technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
       <triangles count="1"><input semantic="NORMAL" source="#n" offset="0"/><input semantic="VERTEX" source="#v" offset="1"/><p>9 0 9 1 9 2</p></triangles></mesh></geometry></library_geometries>
       <library_nodes><node id="n"><scale>2 2 2</scale><instance_geometry url="#g"/></node></library_nodes><library_visual_scenes><visual_scene id="w">
@@ -196,12 +201,16 @@ TEST(MeshFile, HostileText) {
       {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\n", "holds no triangles (3 vertices, 0 faces)"},
       {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 x 3\n", "line 4: face corner 'x': must be a vertex"},
       {"a.ply", "PLX\n", "not a PLY file"},
-      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 4294967295\nproperty float x\nend_header\n0 0 0\n", "4294967295 items of 'vertex' are more than"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 4294967295\nproperty float x\nend_header\n0 0 0\n",
+       "4294967295 items of 'vertex' are more than"},
       {"a.ply", "ply\nformat ascii 1.0\nelement vertex -1\nend_header\n", "element 'vertex' has no count"},
       {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", "lack x, y or z"},
-      {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uint int vertex_indices\nend_header\n4294967295 0\n", "list length 4294967295 exceeds the file"},
-      {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uint int vertex_indices\nend_header\nnan 0\n", "list length nan exceeds the file"},
-      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 zero 0\n", "not a number"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uint int vertex_indices\nend_header\n4294967295 0\n",
+       "list length 4294967295 exceeds the file"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uint int vertex_indices\nend_header\nnan 0\n",
+       "list length nan exceeds the file"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 zero 0\n",
+       "not a number"},
       {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "OFF header: 3 vertices"},
       {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "face 0: needs 3 corners"},
       {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n900 0 1 2\n", "face 0: cut short"},
@@ -299,9 +308,10 @@ TEST(MeshFile, TownModelsHaveTheirTrueSize) {
     std::size_t triangles;
     Vec<3> size;
   };
-  const Model models[] = {{"house_1", 1884, {11.0, 8.6, 5.1}},      {"house_3", 1632, {8.8, 5.8, 6.1}},       {"school", 5128, {33.0, 17.5, 14.2}},
-                          {"gas_station", 4940, {20.6, 30.0, 9.0}}, {"radio_tower", 4892, {11.7, 13.4, 44.2}}, {"telephone_pole", 226, {2.1, 0.24, 9.2}},
-                          {"lamp_post", 270, {0.16, 1.06, 3.09}},   {"powerplant", 4693, {99.1, 64.7, 48.0}}};
+  const Model models[] = {{"house_1", 1884, {11.0, 8.6, 5.1}},       {"house_3", 1632, {8.8, 5.8, 6.1}},
+                          {"school", 5128, {33.0, 17.5, 14.2}},      {"gas_station", 4940, {20.6, 30.0, 9.0}},
+                          {"radio_tower", 4892, {11.7, 13.4, 44.2}}, {"telephone_pole", 226, {2.1, 0.24, 9.2}},
+                          {"lamp_post", 270, {0.16, 1.06, 3.09}},    {"powerplant", 4693, {99.1, 64.7, 48.0}}};
   for (const Model& model : models) {
     const Mesh<3> mesh = read_mesh(folder / "original" / (std::string(model.name) + ".dae"));
     EXPECT_EQ(mesh.facets.size(), model.triangles) << model.name;

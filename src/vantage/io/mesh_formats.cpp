@@ -89,7 +89,8 @@ Polygons parse_ascii_stl(std::string_view bytes, const std::string& name) {
       if (!open) polygons.close_polygon();
     }
   }
-  require(!open && (polygons.ends.empty() ? polygons.corners.empty() : polygons.ends.back() == polygons.corners.size()), "cut short within a facet", name);
+  require(!open && (polygons.ends.empty() ? polygons.corners.empty() : polygons.ends.back() == polygons.corners.size()), "cut short within a facet",
+          name);
   return polygons;
 }
 

@@ -82,7 +82,8 @@ void check_gltf(const nlohmann::json& json, std::size_t file_size, const std::st
   double bytes = static_cast<double>(file_size);
   for (const auto& buffer : json.value("buffers", nlohmann::json::array())) bytes += buffer.value("byteLength", 0.0);
   for (const auto& accessor : json.value("accessors", nlohmann::json::array()))
-    if (const double count = accessor.value("count", 0.0); !(count >= 0.0 && count <= bytes)) fail(fmt::format("accessor count {} exceeds the file", count), name);
+    if (const double count = accessor.value("count", 0.0); !(count >= 0.0 && count <= bytes))
+      fail(fmt::format("accessor count {} exceeds the file", count), name);
   for (const auto& mesh : json.value("meshes", nlohmann::json::array()))
     if (!mesh.value("primitives", nlohmann::json::array()).is_array()) fail("mesh primitives are not an array", name);
 }

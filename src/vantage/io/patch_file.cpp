@@ -82,7 +82,8 @@ class PatchReader {
             fmt::format("{}: {} corners: must be {} .. {}", name, indices.size(), fewest, static_cast<int>(Patch<Dim>::kMaxVertices)), where_);
     Patch<Dim> patch;
     for (const double index : indices) {
-      require(index >= 0.0 && index < static_cast<double>(vertices_.size()), fmt::format("{}: vertex {} of {}", name, index, vertices_.size()), where_);
+      require(index >= 0.0 && index < static_cast<double>(vertices_.size()), fmt::format("{}: vertex {} of {}", name, index, vertices_.size()),
+              where_);
       const auto i = static_cast<std::size_t>(index);
       require(vertices_[i].allFinite(), fmt::format("vertex {}: coordinates must be finite", i), where_);
       used_[i] = true;
@@ -126,7 +127,9 @@ std::string patches_as_ply(std::span<const Patch<Dim>> patches) {
     ++counts[patch.rank()];
     next += patch.count;
   }
-  std::string out = fmt::format("ply\nformat binary_little_endian 1.0\ncomment dim {}\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n", Dim, next);
+  std::string out = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment dim {}\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n", Dim,
+      next);
   out += fmt::format("element face {}\nproperty list uchar int vertex_indices\n{}", counts[2], kErrorProperties);
   out += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\n{}", counts[1], kErrorProperties);
   out += fmt::format("element point {}\nproperty int vertex\n{}end_header\n", counts[0], kErrorProperties);

@@ -80,7 +80,9 @@ TYPED_TEST(PatchFiles, NothingIsAlsoAFile) {
 }
 
 TEST(PatchFile, RefusesWhatIsNoPatch) {
-  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
+      "vertex_indices\nend_header\n";
   const std::pair<std::string, std::string> table[] = {
       {head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "vertex 3 of 3"},
       {head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "vertex -1 of 3"},

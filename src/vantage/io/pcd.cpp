@@ -72,7 +72,8 @@ void finish_header(PcdHeader& header, std::string_view where) {
   for (PcdField& field : header.fields) {
     const bool known = (field.type == 'F' && (field.size == 4 || field.size == 8)) ||
                        ((field.type == 'I' || field.type == 'U') && (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8));
-    if (!known || field.count > 65536) fail(fmt::format("field {}: type {}, size {}, count {} is not known", field.name, field.type, field.size, field.count), where, header.lines);
+    if (!known || field.count > 65536)
+      fail(fmt::format("field {}: type {}, size {}, count {} is not known", field.name, field.type, field.size, field.count), where, header.lines);
     field.column = header.columns;
     field.offset = header.record;
     header.columns += field.count;
@@ -197,7 +198,8 @@ PointCloud parse_pcd(std::string_view bytes, std::string_view where) {
     cloud.points = read_ascii(bytes, header, where);
   } else if (header.data == "binary") {
     const std::string_view data = bytes.substr(header.data_offset);
-    if (header.points > data.size() / header.record) fail(fmt::format("{} points of {} bytes exceed the file", header.points, header.record), where, header.data_offset);
+    if (header.points > data.size() / header.record)
+      fail(fmt::format("{} points of {} bytes exceed the file", header.points, header.record), where, header.data_offset);
     cloud.points = read_records(data, header, false);
   } else if (header.data == "binary_compressed") {
     cloud.points = read_compressed(bytes, header, where);

@@ -22,8 +22,14 @@ constexpr std::array<std::size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
 std::size_t size_of(Type type) { return kSizes[static_cast<std::size_t>(type)]; }
 
 Type parse_type(std::string_view word, const std::string& name) {
-  static constexpr std::array<std::array<std::string_view, 2>, 8> kNames{
-      {{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"}, {"ushort", "uint16"}, {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}}};
+  static constexpr std::array<std::array<std::string_view, 2>, 8> kNames{{{"char", "int8"},
+                                                                          {"uchar", "uint8"},
+                                                                          {"short", "int16"},
+                                                                          {"ushort", "uint16"},
+                                                                          {"int", "int32"},
+                                                                          {"uint", "uint32"},
+                                                                          {"float", "float32"},
+                                                                          {"double", "float64"}}};
   for (std::size_t i = 0; i < kNames.size(); ++i)
     if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<Type>(i);
   throw Error(ErrorCode::bad_input, fmt::format("PLY header: unknown type '{}'", printable(word)), name);
@@ -101,7 +107,8 @@ class Body {
     require(bytes_.size() >= n, fmt::format("cut short {} bytes after the PLY header", size_), name_);
     std::array<char, 8> raw{};
     std::copy_n(bytes_.data(), n, raw.data());
-    if ((format_ == Format::big) != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(n));
+    if ((format_ == Format::big) != (std::endian::native == std::endian::big))
+      std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(n));
     bytes_.remove_prefix(n);
     return decode(type, raw.data());
   }
@@ -110,8 +117,10 @@ class Body {
     std::size_t least = 0;
     for (std::size_t i = 0; i < properties.size(); ++i)
       least += format_ == Format::ascii ? 2 : size_of(element.columns[i].list ? properties[i].count_type : properties[i].type);
-    require(element.count <= (bytes_.size() + 1) / std::max<std::size_t>(least, 1),
-            fmt::format("PLY header: {} items of '{}' are more than the file's {} bytes can hold", element.count, printable(element.name), bytes_.size()), name_);
+    require(
+        element.count <= (bytes_.size() + 1) / std::max<std::size_t>(least, 1),
+        fmt::format("PLY header: {} items of '{}' are more than the file's {} bytes can hold", element.count, printable(element.name), bytes_.size()),
+        name_);
   }
   [[nodiscard]] std::size_t left() const { return bytes_.size(); }
   [[nodiscard]] std::size_t offset() const { return size_ - bytes_.size(); }
@@ -157,8 +166,10 @@ void take_element(Body& body, const std::vector<Property>& properties, PlyElemen
   for (PlyColumn& column : element.columns) (column.list ? column.ends.reserve(element.count) : column.values.reserve(element.count));
   for (std::size_t i = 0; i < element.count; ++i)
     for (std::size_t k = 0; k < properties.size(); ++k) {
-      if (element.columns[k].list) take_list(body, properties[k], element.columns[k], name);
-      else element.columns[k].values.push_back(body.take(properties[k].type));
+      if (element.columns[k].list)
+        take_list(body, properties[k], element.columns[k], name);
+      else
+        element.columns[k].values.push_back(body.take(properties[k].type));
     }
 }
 

@@ -20,9 +20,9 @@ constexpr std::size_t kMaxHeaderBytes = 1 << 20;
 
 std::optional<Type> type_of(std::string_view name) {
   constexpr std::pair<std::string_view, Type> kNames[] = {
-      {"char", Type::int8},     {"int8", Type::int8},     {"uchar", Type::uint8},     {"uint8", Type::uint8},
-      {"short", Type::int16},   {"int16", Type::int16},   {"ushort", Type::uint16},   {"uint16", Type::uint16},
-      {"int", Type::int32},     {"int32", Type::int32},   {"uint", Type::uint32},     {"uint32", Type::uint32},
+      {"char", Type::int8},     {"int8", Type::int8},       {"uchar", Type::uint8},    {"uint8", Type::uint8},
+      {"short", Type::int16},   {"int16", Type::int16},     {"ushort", Type::uint16},  {"uint16", Type::uint16},
+      {"int", Type::int32},     {"int32", Type::int32},     {"uint", Type::uint32},    {"uint32", Type::uint32},
       {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64}};
   for (const auto& [text, type] : kNames)
     if (text == name) return type;
@@ -127,7 +127,8 @@ void parse_element(std::string_view line, Ply& ply, const std::string& place) {
   element.name = take_word(line);
   const std::string_view count_text = take_word(line);
   const std::optional<std::uint64_t> count = to_number<std::uint64_t>(count_text);
-  require(!element.name.empty() && count.has_value(), fmt::format("element {}: count {:.40}: must be a whole number", element.name, count_text), place);
+  require(!element.name.empty() && count.has_value(), fmt::format("element {}: count {:.40}: must be a whole number", element.name, count_text),
+          place);
   element.count = *count;
   ply.elements.push_back(std::move(element));
 }
@@ -228,8 +229,10 @@ Ply parse_ply(std::string_view bytes, std::string_view where, const std::functio
   const std::size_t header_lines = static_cast<std::size_t>(std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
   const std::endian order = ply.format == "binary_big_endian" ? std::endian::big : std::endian::little;
   std::unique_ptr<Source> source;
-  if (ply.format == "ascii") source = std::make_unique<TextSource>(bytes.substr(offset), header_lines, where);
-  else source = std::make_unique<BinarySource>(bytes, offset, order, where);
+  if (ply.format == "ascii")
+    source = std::make_unique<TextSource>(bytes.substr(offset), header_lines, where);
+  else
+    source = std::make_unique<BinarySource>(bytes, offset, order, where);
   for (Ply::Element& element : ply.elements) read_element(element, *source, wanted);
   return ply;
 }

@@ -16,9 +16,9 @@ struct Ply {
   struct Property {
     std::string name;
     Type type = Type::float32;
-    std::optional<Type> count_type;     ///< A list whose length has this type.
-    std::vector<double> values;         ///< One a row, or the rows of a list one after the other; empty if not wanted.
-    std::vector<std::size_t> row_start; ///< Of a list: row i is values[row_start[i] .. row_start[i + 1]).
+    std::optional<Type> count_type;      ///< A list whose length has this type.
+    std::vector<double> values;          ///< One a row, or the rows of a list one after the other; empty if not wanted.
+    std::vector<std::size_t> row_start;  ///< Of a list: row i is values[row_start[i] .. row_start[i + 1]).
   };
   struct Element {
     std::string name;
@@ -38,7 +38,6 @@ struct Ply {
 
 /// Header and the columns for which `wanted(element, property)` holds. Every size is checked against the bytes there before memory is taken.
 /// Throws bad_input naming `where:offset` (binary) or `where:line` (ascii).
-[[nodiscard]] Ply parse_ply(std::string_view bytes, std::string_view where,
-                            const std::function<bool(std::string_view, std::string_view)>& wanted);
+[[nodiscard]] Ply parse_ply(std::string_view bytes, std::string_view where, const std::function<bool(std::string_view, std::string_view)>& wanted);
 
 }  // namespace vantage

@@ -47,9 +47,12 @@ std::string coordinates(std::span<const Vec<Dim>> points) {
 PointCloud parse_points(std::string_view bytes, std::string_view where) {
   require(!bytes.empty(), "the file is empty", where);
   PointCloud cloud;
-  if (bytes.substr(0, 3) == "ply") cloud = parse_ply_points(bytes, where);
-  else if (where.ends_with(".pcd") || bytes.starts_with("# .PCD")) cloud = parse_pcd(bytes, where);
-  else cloud = parse_xyz(bytes, where);
+  if (bytes.substr(0, 3) == "ply")
+    cloud = parse_ply_points(bytes, where);
+  else if (where.ends_with(".pcd") || bytes.starts_with("# .PCD"))
+    cloud = parse_pcd(bytes, where);
+  else
+    cloud = parse_xyz(bytes, where);
   cloud.not_finite = std::count_if(cloud.points.begin(), cloud.points.end(), [](const Vec<3>& p) { return !p.allFinite(); });
   return cloud;
 }
@@ -62,8 +65,10 @@ std::string points_as_ply(std::span<const Vec<Dim>> points) {
   for (const Vec<Dim>& p : points) reach = std::max(reach, p.cwiseAbs().maxCoeff());
   const bool wide = !(reach < kFloatReach);
   const std::string_view type = wide ? "double" : "float";
-  return fmt::format("ply\nformat binary_little_endian 1.0\ncomment dim {0}\nelement vertex {1}\nproperty {2} x\nproperty {2} y\nproperty {2} z\nend_header\n", Dim,
-                     points.size(), type) +
+  return fmt::format(
+             "ply\nformat binary_little_endian 1.0\ncomment dim {0}\nelement vertex {1}\nproperty {2} x\nproperty {2} y\nproperty {2} "
+             "z\nend_header\n",
+             Dim, points.size(), type) +
          (wide ? coordinates<double>(points) : coordinates<float>(points));
 }
 

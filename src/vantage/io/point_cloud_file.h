@@ -19,8 +19,8 @@ struct PointCloud {
   std::string format;           ///< "PLY, ascii", "PCD, binary", "text" …
 };
 
-/// Reads PLY, PCD (ascii, binary, binary_compressed) or XYZ / CSV text, told apart by the content, then the name. Throws io, or bad_input naming `FILE:OFFSET`
-/// (text: `FILE:LINE`).
+/// Reads PLY, PCD (ascii, binary, binary_compressed) or XYZ / CSV text, told apart by the content, then the name. Throws io, or bad_input naming
+/// `FILE:OFFSET` (text: `FILE:LINE`).
 [[nodiscard]] PointCloud read_points(const std::filesystem::path& path);
 /// The same from memory; `where` names it in messages.
 [[nodiscard]] PointCloud parse_points(std::string_view bytes, std::string_view where);

@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "vantage/base/error.h"
 #include "vantage/base/random.h"
 #include "vantage/io/bytes.h"
+#include "vantage/io/test_data.h"
 
 namespace vantage {
 namespace {
@@ -50,7 +49,9 @@ TYPED_TEST(PointFiles, XyzReadsBackExactly) {
 
 /// A PLY or PCD with one point (1, -2, 0.5) preceded by an unwanted column, in every encoding.
 std::string ply(const std::string& format, const std::string& data) {
-  return "ply\nformat " + format + " 1.0\ncomment made by hand\nelement vertex 1\nproperty uchar red\nproperty float x\nproperty double y\nproperty short z\nend_header\n" + data;
+  return "ply\nformat " + format +
+         " 1.0\ncomment made by hand\nelement vertex 1\nproperty uchar red\nproperty float x\nproperty double y\nproperty short z\nend_header\n" +
+         data;
 }
 
 TEST(PointFile, PlyInEveryByteOrder) {
@@ -70,7 +71,8 @@ TEST(PointFile, PlyInEveryByteOrder) {
 }
 
 TEST(PointFile, PcdAsciiBinaryAndCompressed) {
-  const std::string head = "# .PCD v0.7\nVERSION 0.7\nFIELDS intensity x y z\nSIZE 2 4 8 4\nTYPE U F F I\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ";
+  const std::string head =
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS intensity x y z\nSIZE 2 4 8 4\nTYPE U F F I\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ";
   std::string records, columns;
   const double y[] = {-2.0, 0.25};
   for (int i = 0; i < 2; ++i) {
@@ -89,7 +91,8 @@ TEST(PointFile, PcdAsciiBinaryAndCompressed) {
   put<std::uint32_t>(compressed, static_cast<std::uint32_t>(packed.size()));
   put<std::uint32_t>(compressed, static_cast<std::uint32_t>(columns.size()));
   compressed += packed;
-  for (const std::string& bytes : {head + "ascii\n9 1 -2 -3\n9 1 0.25 -3\n", head + "binary\n" + records, head + "binary_compressed\n" + compressed}) {
+  for (const std::string& bytes :
+       {head + "ascii\n9 1 -2 -3\n9 1 0.25 -3\n", head + "binary\n" + records, head + "binary_compressed\n" + compressed}) {
     const PointCloud cloud = parse_points(bytes, "a.pcd");
     ASSERT_EQ(cloud.points.size(), 2U) << cloud.format;
     EXPECT_EQ(cloud.points[0], Vec<3>(1, -2, -3)) << cloud.format;
@@ -121,13 +124,18 @@ TEST(PointFile, HostileFilesGiveOnePlacedMessage) {
       {"ply\nformat binary 1.0\n", "a.ply", "a.ply:2: format binary"},
       {"ply\nformat ascii 1.0\nelement vertex 99999999999999999999\n", "a.ply", "a.ply:3"},
       {"ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nend_header\n1 2\n", "a.ply", "exceed the file"},
-      {"ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\nproperty float x\nproperty float y\nend_header\n", "a.ply", "exceed the file"},
+      {"ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\nproperty float x\nproperty float y\nend_header\n", "a.ply",
+       "exceed the file"},
       {"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nend_header\n1 2 3\n", "a.ply", "ends within the data"},
       {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n1 two\n", "a.ply", "a.ply:7: two: not a number"},
-      {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int i\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n1e300 2\n", "a.ply", "list length 1e+300"},
-      {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int i\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n-1 2\n", "a.ply", "list length -1"},
+      {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int i\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n1e300 "
+       "2\n",
+       "a.ply", "list length 1e+300"},
+      {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int i\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n-1 2\n",
+       "a.ply", "list length -1"},
       {"ply\nformat ascii 1.0\nelement face 0\nproperty int i\nend_header\n", "a.ply", "no vertex element"},
-      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty list int float x\nproperty float y\nend_header\n0 1\n", "a.ply", "vertices without x and y"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty list int float x\nproperty float y\nend_header\n0 1\n", "a.ply",
+       "vertices without x and y"},
       {pcd + "POINTS 5\n", "a.pcd", "within the header"},
       {pcd + "POINTS 5\nDATA ascii\n1 2 3\n", "a.pcd", "after 1 of 5 points"},
       {pcd + "POINTS 1\nDATA ascii\n1 2\n", "a.pcd", "a.pcd:8: 2 numbers"},
@@ -139,7 +147,10 @@ TEST(PointFile, HostileFilesGiveOnePlacedMessage) {
       {"1 2 3\n4 5\n", "a.xyz", "a.xyz:2: 2 numbers"},
       {"1 2 3\n4 5 six\n", "a.xyz", "a.xyz:2: six: not a number"},
       {"hello world\n", "a.txt", "a.txt:1: hello"},
-      {std::string("\x7f" "ELF\0\0\0", 7), "a.xyz", "not a point cloud"},
+      {std::string("\x7f"
+                   "ELF\0\0\0",
+                   7),
+       "a.xyz", "not a point cloud"},
   };
   for (const Bad& bad : table) {
     try {
@@ -188,9 +199,7 @@ TEST(PointFile, MissingFilesAndFoldersAreIoErrors) {
 }
 
 TEST(PointFile, UpstreamFilesLoadOrAreRefused) {
-  const char* folder = std::getenv("VANTAGE_DATA");
-  const std::filesystem::path data = folder == nullptr ? std::filesystem::path(__FILE__).parent_path() / "../../../../shared/data" : std::filesystem::path(folder);
-  if (!std::filesystem::exists(data / "corrupt")) GTEST_SKIP() << "no data set `corrupt`";
+  VANTAGE_NEEDS_DATA("corrupt");
   struct Expectation {
     const char* file;
     int points;  ///< -1: refused.
@@ -214,7 +223,7 @@ TEST(PointFile, UpstreamFilesLoadOrAreRefused) {
     int points = -1;
     std::string message;
     try {
-      points = static_cast<int>(read_points(data / expected.file).points.size());
+      points = static_cast<int>(read_points(data_set(expected.file)).points.size());
     } catch (const Error& error) {
       message = error.what();
     }

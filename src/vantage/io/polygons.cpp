@@ -83,7 +83,8 @@ class Cutter {
   void cut_ears(std::span<const std::uint32_t> corners) {
     std::vector<std::uint32_t> ring(corners.begin(), corners.end());
     normal_.setZero();
-    for (std::size_t i = 0; i < ring.size(); ++i) normal_ += (places_[ring[i]] - places_[ring[0]]).cross(places_[ring[(i + 1) % ring.size()]] - places_[ring[0]]);
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      normal_ += (places_[ring[i]] - places_[ring[0]]).cross(places_[ring[(i + 1) % ring.size()]] - places_[ring[0]]);
     while (ring.size() > 3) {
       std::size_t ear = 0;
       while (ear < ring.size() && !is_ear(ring, (ear + 1) % ring.size())) ++ear;  // A convex one becomes a fan around its first corner.

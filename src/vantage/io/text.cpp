@@ -22,8 +22,10 @@ std::string_view next_line(std::string_view& text) {
   const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
   const std::string_view line = text.substr(0, end);
   text.remove_prefix(end);
-  if (text.starts_with("\r\n")) text.remove_prefix(2);
-  else if (!text.empty()) text.remove_prefix(1);
+  if (text.starts_with("\r\n"))
+    text.remove_prefix(2);
+  else if (!text.empty())
+    text.remove_prefix(1);
   return line;
 }
 

@@ -63,9 +63,13 @@ std::string image_as_vti(const Grid<Dim>& window, std::span<const ImageArray> ar
     last[a] = window.extent[a] - 1;
   }
   const std::string extent = fmt::format("0 {} 0 {} 0 {}", last[0], last[1], last[2]);
-  std::string head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n";
-  head += fmt::format("  <ImageData WholeExtent=\"{0}\" Origin=\"{1} {2} {3}\" Spacing=\"{4} {4} {4}\">\n    <Piece Extent=\"{0}\">\n      <PointData Scalars=\"{5}\">\n", extent,
-                      origin[0], origin[1], origin[2], window.spacing, arrays.empty() ? "" : arrays.front().name);
+  std::string head =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+      "compressor=\"vtkZLibDataCompressor\">\n";
+  head += fmt::format(
+      "  <ImageData WholeExtent=\"{0}\" Origin=\"{1} {2} {3}\" Spacing=\"{4} {4} {4}\">\n    <Piece Extent=\"{0}\">\n      <PointData "
+      "Scalars=\"{5}\">\n",
+      extent, origin[0], origin[1], origin[2], window.spacing, arrays.empty() ? "" : arrays.front().name);
   std::string data;
   for (const ImageArray& array : arrays) {
     const char* type = array.values.index() == 0 ? "UInt8" : "Float32";

@@ -24,8 +24,8 @@ template <int Dim>
 
 /// What the head of a .vti says.
 struct ImageInfo {
-  std::vector<std::int64_t> nodes;     ///< Along x, y, z.
-  std::vector<double> origin, spacing; ///< [m]
+  std::vector<std::int64_t> nodes;      ///< Along x, y, z.
+  std::vector<double> origin, spacing;  ///< [m]
   struct Array {
     std::string name, type;
   };

@@ -45,7 +45,8 @@ Columns named_columns(const std::vector<std::string_view>& words, const std::str
     require(column < 0, fmt::format("columns {} and {} are both called {}", column + 1, i + 1, word), place);
     column = static_cast<int>(i);
   }
-  require(columns.of_axis[0] >= 0 && columns.of_axis[1] >= 0, fmt::format("{:.40}: neither numbers nor column names with x and y", words.front()), place);
+  require(columns.of_axis[0] >= 0 && columns.of_axis[1] >= 0, fmt::format("{:.40}: neither numbers nor column names with x and y", words.front()),
+          place);
   return columns;
 }
 
@@ -62,7 +63,8 @@ Vec<3> point_of(const std::vector<std::string_view>& words, const Columns& colum
   for (std::size_t a = 0; a < 3; ++a) {
     if (columns.of_axis[a] < 0) continue;
     const auto column = static_cast<std::size_t>(columns.of_axis[a]);
-    if (column >= words.size()) throw Error(ErrorCode::bad_input, fmt::format("{} numbers: column {} is missing", words.size(), column + 1), fmt::format("{}:{}", where, line));
+    if (column >= words.size())
+      throw Error(ErrorCode::bad_input, fmt::format("{} numbers: column {} is missing", words.size(), column + 1), fmt::format("{}:{}", where, line));
     const std::optional<double> value = to_number<double>(words[column]);
     if (!value) throw Error(ErrorCode::bad_input, fmt::format("{:.40}: not a number", words[column]), fmt::format("{}:{}", where, line));
     p[static_cast<Eigen::Index>(a)] = *value;

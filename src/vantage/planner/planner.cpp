@@ -37,7 +37,7 @@ std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::
     home = grid.linear(node);
   }
   const Seed seed{target, 0.0F};
-  std::vector<Vec<Dim>> path = descend(fast_march(reachable, std::span(&seed, 1), home), home);
+  std::vector<Vec<Dim>> path = descend(fast_march_to(reachable, std::span(&seed, 1), home), home);
   path.insert(path.begin(), here);
   return path;
 }
@@ -198,7 +198,7 @@ template <int Dim>
 std::vector<double> Planner<Dim>::evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const {
   const RayMarch<Dim> march = rays(view);
   const bool by_rays = options_.metric == PlannerOptions::Metric::ray;
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_);
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays / 2), seed_);
   const std::vector<BoundaryElement<Dim>> elements = by_rays ? std::vector<BoundaryElement<Dim>>{} : boundary_elements(view, opening_.faces(), options_);
   std::vector<double> values(places.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_for(places.size(), 1, [&](std::size_t i) {

@@ -26,6 +26,7 @@ struct ReportInput {
   std::vector<Snapshot<Dim>> snapshots;
   Verdict<Dim> verdict;
   SurfaceStatistics surface;
+  int picture_width = 1400;                                    ///< Of the large pictures [pixels].
 };
 
 /// One self-contained HTML page (no network, pictures inline).

@@ -34,7 +34,8 @@ Json inspect_points(const fs::path& path) {
   Box<3> box;
   for (const Vec<3>& p : cloud.points)
     if (p.allFinite()) box.extend(p);
-  return {{"kind", "point cloud"}, {"format", cloud.format}, {"dim", cloud.dim}, {"points", cloud.points.size()}, {"not_finite", cloud.not_finite}, {"bounds", bounds_json(box)}};
+  return {{"kind", "point cloud"},         {"format", cloud.format},         {"dim", cloud.dim},
+          {"points", cloud.points.size()}, {"not_finite", cloud.not_finite}, {"bounds", bounds_json(box)}};
 }
 
 template <int Dim>
@@ -48,7 +49,8 @@ Json inspect_patches(const std::vector<Patch<Dim>>& patches) {
     certified = std::max({certified, static_cast<double>(patch.data_to_surface), static_cast<double>(patch.surface_to_data)});
     box.extend(patch.bounds());
   }
-  return {{"kind", "surface"}, {"dim", Dim}, {"polygons", by_rank[2]}, {"segments", by_rank[1]}, {"points", by_rank[0]}, {"measure", area}, {"certified_m", certified}, {"bounds", bounds_json(box)}};
+  return {{"kind", "surface"},    {"dim", Dim},      {"polygons", by_rank[2]},   {"segments", by_rank[1]},
+          {"points", by_rank[0]}, {"measure", area}, {"certified_m", certified}, {"bounds", bounds_json(box)}};
 }
 
 template <int Dim>
@@ -63,7 +65,10 @@ Json inspect_log(const fs::path& path) {
     no_data += std::count_if(scan.ranges.begin(), scan.ranges.end(), [](float r) { return std::isnan(r); });
     stations.extend(scan.origin);
   }
-  return {{"kind", "scan log"}, {"dim", Dim}, {"scans", log.size()}, {"rays", rays}, {"hits", hits}, {"no_return", rays - hits - no_data}, {"no_data", no_data}, {"stations", bounds_json(stations)}};
+  return {{"kind", "scan log"},  {"dim", Dim},
+          {"scans", log.size()}, {"rays", rays},
+          {"hits", hits},        {"no_return", rays - hits - no_data},
+          {"no_data", no_data},  {"stations", bounds_json(stations)}};
 }
 
 Json inspect_image(const fs::path& path) {
@@ -76,8 +81,15 @@ Json inspect_image(const fs::path& path) {
 Json inspect_scene(const fs::path& path) {
   return std::visit(
       []<int Dim>(const Scene<Dim>& scene) -> Json {
-        return {{"kind", "scene"}, {"name", scene.name}, {"dim", Dim}, {"vertices", scene.mesh.vertices.size()}, {"facets", scene.mesh.facets.size()},
-                {"bounds", bounds_json(scene.mesh.bounds())}, {"start", to_json<Dim>(scene.start)}, {"voxel_m", scene.voxel}, {"eta_m", scene.eta}};
+        return {{"kind", "scene"},
+                {"name", scene.name},
+                {"dim", Dim},
+                {"vertices", scene.mesh.vertices.size()},
+                {"facets", scene.mesh.facets.size()},
+                {"bounds", bounds_json(scene.mesh.bounds())},
+                {"start", to_json<Dim>(scene.start)},
+                {"voxel_m", scene.voxel},
+                {"eta_m", scene.eta}};
       },
       make_scene(path.string()));
 }

@@ -80,7 +80,8 @@ std::vector<std::vector<Vec<Dim>>> save_scans(Folder& folder, const RunOutputs<D
     for (std::size_t k = 0; k < points.size(); k += stride) some.push_back(points[k]);
   }
   folder.write(run_file::kStations, stations);
-  for (int i = run.log.size(); fs::remove(scans / fmt::format("{:03}.ply", i)); ++i) {}  // Of scans taken out of the log.
+  for (int i = run.log.size(); fs::remove(scans / fmt::format("{:03}.ply", i)); ++i) {
+  }  // Of scans taken out of the log.
   return kept;
 }
 
@@ -120,7 +121,8 @@ std::uint32_t mesh_checksum(const Mesh<Dim>& mesh) {
 }
 
 template <int Dim>
-void save_report(Folder& folder, const RunOutputs<Dim>& run, std::vector<std::vector<Vec<Dim>>> scan_points, std::vector<Patch<Dim>> patches, Field<Dim, NodeState> state) {
+void save_report(Folder& folder, const RunOutputs<Dim>& run, std::vector<std::vector<Vec<Dim>>> scan_points, std::vector<Patch<Dim>> patches,
+                 Field<Dim, NodeState> state) {
   const std::string spec = fs::path(run.scenario.scene).is_absolute() ? fs::path(run.scenario.scene).filename().string() : run.scenario.scene;
   const ReportInput<Dim> input{.scene = run.scene.name,
                                .command = "vantage explore " + spec,
@@ -158,7 +160,8 @@ Json result_json(const RunOutputs<Dim>& run) {
 
 template <int Dim>
 Json manifest_json(const Scenario& scenario, const Scene<Dim>& scene) {
-  const Json input = {{"name", scenario.scene}, {"dim", Dim}, {"facets", scene.mesh.facets.size()}, {"crc32", fmt::format("{:08x}", mesh_checksum(scene.mesh))}};
+  const Json input = {
+      {"name", scenario.scene}, {"dim", Dim}, {"facets", scene.mesh.facets.size()}, {"crc32", fmt::format("{:08x}", mesh_checksum(scene.mesh))}};
   return {{"vantage", kVersion}, {"scene", scene.name}, {"seed", scenario.explore.seed}, {"inputs", Json::array({input})}};
 }
 

@@ -18,7 +18,8 @@ Json to_json(const Box<Dim>& box) {
 template <int Dim>
 Json to_json(const Verdict<Dim>& verdict) {
   Json unseen = Json::array();
-  for (const UnseenRegion<Dim>& region : verdict.unseen) unseen.push_back({{"volume_m3", region.volume}, {"box", to_json(region.box)}, {"reason", region.reason}});
+  for (const UnseenRegion<Dim>& region : verdict.unseen)
+    unseen.push_back({{"volume_m3", region.volume}, {"box", to_json(region.box)}, {"reason", region.reason}});
   return {{"complete", verdict.complete},
           {"reason", verdict.reason},
           {"seen_fraction", verdict.seen_fraction},
@@ -52,7 +53,8 @@ Json to_json(const SurfaceStatistics& surface) {
           {"segments", surface.segments},
           {"loose_points", surface.loose_points},
           {"eta_m", surface.eta},
-          {"hausdorff", {{"data_to_surface_m", surface.data_to_surface}, {"surface_to_data_m", surface.surface_to_data}, {"certified_m", surface.certified()}}}};
+          {"hausdorff",
+           {{"data_to_surface_m", surface.data_to_surface}, {"surface_to_data_m", surface.surface_to_data}, {"certified_m", surface.certified()}}}};
 }
 
 template <int Dim>
@@ -61,8 +63,8 @@ std::string steps_as_csv(const std::vector<StepRecord<Dim>>& steps) {
   for (int a = 0; a < Dim; ++a) out += fmt::format("{},", kAxes[a]);
   out += "score,next_score,expected_volume_m3,candidates,points,new_volume_m3,seen_volume_m3,seen_fraction,path_m\n";
   for (const StepRecord<Dim>& s : steps)
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", s.scan, fmt::join(s.vantage.data(), s.vantage.data() + Dim, ","), s.score, s.next_score, s.expected_volume,
-                       s.candidates, s.points, s.new_volume, s.seen_volume, s.seen_fraction, s.path_length);
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", s.scan, fmt::join(s.vantage.data(), s.vantage.data() + Dim, ","), s.score, s.next_score,
+                       s.expected_volume, s.candidates, s.points, s.new_volume, s.seen_volume, s.seen_fraction, s.path_length);
   return out;
 }
 

@@ -37,7 +37,8 @@ class Run {
     ExploreOptions options = scenario_.explore;
     if (request_.max_scans) options.max_scans = *request_.max_scans;
     const int logged = sensor_.size();
-    require(logged <= options.max_scans, fmt::format("--max-scans {}: the run has {} scans already", options.max_scans, logged), request_.folder.string());
+    require(logged <= options.max_scans, fmt::format("--max-scans {}: the run has {} scans already", options.max_scans, logged),
+            request_.folder.string());
     const Vec<Dim> start = Eigen::Map<const Vec<Dim>>(scenario_.start.data());
     Explorer<Dim> explorer(sensor_, scene_.domain, start, options, observer_);
     if (observer_ != nullptr) observer_->begin({scene_.name, Dim, explorer.window().size(), logged, options.max_scans});
@@ -70,7 +71,14 @@ class Run {
     path_ += step.path_length;
     step_seconds_.push_back(seconds_since(begin));
     if (observer_ == nullptr) return;
-    observer_->step({step.scan, step.scan < logged, {step.vantage.data(), step.vantage.data() + Dim}, step.points, step.new_volume, step.seen_fraction, path_, step_seconds_.back()});
+    observer_->step({step.scan,
+                     step.scan < logged,
+                     {step.vantage.data(), step.vantage.data() + Dim},
+                     step.points,
+                     step.new_volume,
+                     step.seen_fraction,
+                     path_,
+                     step_seconds_.back()});
   }
 
   RunOutcome save(const Explorer<Dim>& explorer, bool interrupted) {
@@ -131,7 +139,8 @@ void check_input(const fs::path& folder, const Scenario& scenario, const Scene<D
   const fs::path path = folder / run_file::kManifest;
   const Json manifest = Json::parse(read_file(path), nullptr, false);
   require(manifest.is_object() && manifest.contains("inputs"), "not a manifest", path.string());
-  require(manifest["inputs"] == manifest_json(scenario, scene)["inputs"], fmt::format("{} is not what it was when the run began", scenario.scene), path.string());
+  require(manifest["inputs"] == manifest_json(scenario, scene)["inputs"], fmt::format("{} is not what it was when the run began", scenario.scene),
+          path.string());
 }
 
 /// The world of a run folder; what the request says must not contradict it.

@@ -17,8 +17,8 @@ namespace vantage {
 struct RunStart {
   std::string scene;
   int dim = 3;
-  std::size_t nodes = 0;       ///< Of the lattice.
-  int logged = 0;              ///< Scans that the log has already.
+  std::size_t nodes = 0;  ///< Of the lattice.
+  int logged = 0;         ///< Scans that the log has already.
   std::int64_t max_scans = 0;
 };
 struct RunStep {
@@ -26,10 +26,10 @@ struct RunStep {
   bool from_log = false;
   std::vector<double> vantage;  ///< [m]
   std::int64_t points = 0;
-  double new_volume = 0.0;      ///< [m^Dim]
-  double seen_fraction = 0.0;   ///< [1]
-  double path = 0.0;            ///< So far [m].
-  double seconds = 0.0;         ///< Wall time of this step.
+  double new_volume = 0.0;     ///< [m^Dim]
+  double seen_fraction = 0.0;  ///< [1]
+  double path = 0.0;           ///< So far [m].
+  double seconds = 0.0;        ///< Wall time of this step.
 };
 
 /// Watches a run; asked after each step whether to stop.
@@ -41,9 +41,9 @@ class RunObserver : public Observer {
 
 /// What to run, and where to.
 struct RunRequest {
-  std::string scene;                      ///< As for make_world; may be empty when resuming.
-  std::vector<Setting> settings;          ///< In order of force.
-  std::filesystem::path folder;           ///< Empty: `runs/NAME`, with the name of the scene or file.
+  std::string scene;              ///< As for make_world; may be empty when resuming.
+  std::vector<Setting> settings;  ///< In order of force.
+  std::filesystem::path folder;   ///< Empty: `runs/NAME`, with the name of the scene or file.
   FolderMode mode = FolderMode::fresh;
   std::optional<std::int64_t> max_scans;  ///< For this time only; not kept in the folder, so that a later resumption can go further.
   std::vector<int> remove;                ///< Scans to take out of the log first; only when resuming.

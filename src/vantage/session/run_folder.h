@@ -26,7 +26,8 @@ inline constexpr const char* kResult = "result.json";
 /// What to do with a run folder that is there already: refuse, make a new run in its place, or go on with it.
 enum class FolderMode { fresh, replace, resume };
 
-/// Throws bad_input unless a run may use `folder` that way: fresh wants nothing or an empty folder there, replace what fresh wants or a run, resume a run.
+/// Throws bad_input unless a run may use `folder` that way: fresh wants nothing or an empty folder there, replace what fresh wants or a run, resume a
+/// run.
 void check_run_folder(const std::filesystem::path& folder, FolderMode mode);
 
 /// Whether `folder` holds a run.

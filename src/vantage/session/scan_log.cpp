@@ -108,7 +108,8 @@ std::string parse_payload(std::string_view bytes, int index, Scan<Dim>& scan) {
     return error.what();
   }
   const auto rays = reader.take<std::uint64_t>();
-  if (rays != static_cast<std::uint64_t>(p.columns()) * static_cast<std::uint64_t>(p.rows<Dim>())) return fmt::format("{} rays: the pattern has {} x {}", rays, p.columns(), p.rows<Dim>());
+  if (rays != static_cast<std::uint64_t>(p.columns()) * static_cast<std::uint64_t>(p.rows<Dim>()))
+    return fmt::format("{} rays: the pattern has {} x {}", rays, p.columns(), p.rows<Dim>());
   if (bytes.size() != payload_head_bytes(Dim) + 4 * rays) return fmt::format("{} bytes do not hold {} rays", bytes.size(), rays);
   scan.ranges.resize(rays);
   for (float& range : scan.ranges) range = reader.take<float>();
@@ -142,7 +143,7 @@ bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
 }
 
 std::uint64_t file_bytes(int file, const std::filesystem::path& path) {
-  struct stat status {};
+  struct stat status{};
   if (::fstat(file, &status) != 0) fail_io(path, "cannot be read");
   return static_cast<std::uint64_t>(status.st_size);
 }
@@ -175,7 +176,8 @@ ScanLog<Dim> ScanLog<Dim>::open(const std::filesystem::path& path, Observer* obs
   const std::uint64_t size = file_bytes(file, path), end = log.list_records(size);
   if (end == size) return log;
   if (::ftruncate(file, static_cast<off_t>(end)) != 0 || ::fsync(file) != 0) fail_io(path, "cannot be cut");
-  if (observer != nullptr) observer->warn(fmt::format("{}:{}: the last scan was not written to its end; {} bytes are cut off", path.string(), end, size - end));
+  if (observer != nullptr)
+    observer->warn(fmt::format("{}:{}: the last scan was not written to its end; {} bytes are cut off", path.string(), end, size - end));
   return log;
 }
 
@@ -218,8 +220,8 @@ bool ScanLog<Dim>::list_record(std::uint64_t bytes) {
   const std::string head = read_at(file_, path_, end_, kRecordHeaderBytes);
   if (head.size() < kRecordHeaderBytes) return false;
   if (head.substr(0, 4) != kRecordMagic || get<std::uint32_t>(head, 12) != checksum(head.substr(0, 12))) {
-    // A machine that stops may leave zeros where a record was to come; anything else is damage.
-    if (read_at(file_, path_, end_, left).find_first_not_of('\0') == std::string::npos) return false;
+    // A machine that stops may leave zeros where the record was to go on; anything else is damage.
+    if (read_at(file_, path_, end_, left).find_first_not_of('\0', kRecordHeaderBytes) == std::string::npos) return false;
     fail_at(path_, end_, "the scan log is damaged: no record begins here");
   }
   const auto length = get<std::uint32_t>(head, 4);

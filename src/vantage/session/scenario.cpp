@@ -190,7 +190,8 @@ std::vector<std::pair<std::string, std::string>> settings_table(Scenario scenari
 std::vector<std::string> differences(Scenario wanted, Scenario here) {
   std::vector<std::string> found;
   if (wanted.scene != here.scene) found.push_back(fmt::format("scene.name = {} (here {})", wanted.scene, here.scene));
-  if (wanted.start != here.start) found.push_back(fmt::format("scene.start = {} (here {})", fmt::join(wanted.start, ","), fmt::join(here.start, ",")));
+  if (wanted.start != here.start)
+    found.push_back(fmt::format("scene.start = {} (here {})", fmt::join(wanted.start, ","), fmt::join(here.start, ",")));
   const std::vector<Option> left = list_options(wanted), right = list_options(here);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (left[i].text() != right[i].text()) found.push_back(fmt::format("{} = {} (here {})", left[i].name, left[i].text(), right[i].text()));

@@ -15,10 +15,10 @@ namespace vantage {
 
 /// All that a run depends on: one file, `scenario.toml`, can hold it.
 struct Scenario {
-  std::string scene;           ///< Built-in name with parameters, mesh files joined by `+`, or a 2D map.
-  SceneFileOptions file;       ///< How a mesh file is read.
-  std::vector<double> start;   ///< First vantage point, Dim numbers [m].
-  std::int64_t grid = 0;       ///< Cells along the domain's longest side; 0: explore.voxel counts.
+  std::string scene;          ///< Built-in name with parameters, mesh files joined by `+`, or a 2D map.
+  SceneFileOptions file;      ///< How a mesh file is read.
+  std::vector<double> start;  ///< First vantage point, Dim numbers [m].
+  std::int64_t grid = 0;      ///< Cells along the domain's longest side; 0: explore.voxel counts.
   LidarOptions sensor;
   ExploreOptions explore;
 };
@@ -43,8 +43,8 @@ struct World {
   AnyScene scene;
 };
 
-/// Loads the scene that `spec` (or else a setting of scene.name) names; `spec` may be a scenario file, whose settings come first. The scene's own lattice, eta,
-/// range, clearance and start are the defaults; `settings` are applied in order on top. Throws bad_input, io, memory.
+/// Loads the scene that `spec` (or else a setting of scene.name) names; `spec` may be a scenario file, whose settings come first. The scene's own
+/// lattice, eta, range, clearance and start are the defaults; `settings` are applied in order on top. Throws bad_input, io, memory.
 [[nodiscard]] World make_world(const std::string& spec, std::span<const Setting> settings);
 
 /// The settings of a scenario file that `spec` is, or of the scene it names, joined with `settings` in order of force.

@@ -6,8 +6,11 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kSample = 128;  ///< The pieces are found on at most so many points.
+constexpr std::size_t kSample = 128;  ///< More points than these are represented by a spread sample.
 constexpr int kRounds = 4;
+constexpr double kProgress = 0.8;        ///< A round that thins the pieces by less is the last.
+constexpr std::size_t kQueries = 48;     ///< Places asked for a hole.
+constexpr double kClearHole = 1.1;       ///< The pieces of a sample are not quite those of all: so much wider than the limit must a hole be.
 constexpr double kOutside = 1.0 / 64.0;  ///< Weight of the squared distance beyond a piece's box, against that off its plane.
 
 /// Piece of a plane: a frame, and the box of its points in it.
@@ -17,7 +20,7 @@ struct Piece {
   Vec<Dim> low, high;
 
   Piece(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Snap<Dim>& snap)
-      : frame(principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), cell.low, snap.step())), low(Vec<Dim>::Constant(kInfinity)), high(-low) {
+      : frame(principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), snap.step())), low(Vec<Dim>::Constant(kInfinity)), high(-low) {
     for (const Site<Dim>& site : sites) {
       const Vec<Dim> y = frame.local(snap.local(site));
       low = low.cwiseMin(y);
@@ -79,16 +82,36 @@ int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, dou
 }
 
 template <int Dim>
-std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules,
-                                          const Frame<Dim>& frame, int axis) {
-  const std::size_t stride = (sites.size() + kSample - 1) / kSample;
-  std::vector<Site<Dim>> sample;
-  for (std::size_t i = 0; i < sites.size(); i += stride) sample.push_back(sites[i]);
+bool shows_hole(std::span<const Site<Dim>> sample, const SiteView<Dim>& sites, const Cell<Dim>& cell, const Frame<Dim>& frame, const Snap<Dim>& snap,
+                double radius) {
+  const Box<Dim> box = cell.box(snap.step());
+  const std::size_t queries = std::min(kQueries, sites.size() / 16);
+  for (std::size_t i = 0; i + 1 < sample.size() && i < queries; ++i) {
+    const Vec<Dim> middle = 0.5 * (snap.local(sample[i]) + snap.local(sample[i + 1]));
+    const Vec<Dim> normal = frame.axes.col(Dim - 1);
+    const Vec<Dim> foot = middle - normal * normal.dot(middle - frame.origin);
+    if (box.contains(foot) && is_empty_ball<Dim>(sites, cell, foot / snap.step(), radius / snap.step())) return true;
+  }
+  return false;
+}
+
+template <int Dim>
+std::optional<Clusters<Dim>> two_clusters(GatheredSites<Dim>& sites, const Cell<Dim>& cell, const FitRules<Dim>& rules, const Frame<Dim>& frame,
+                                          int axis) {
+  const bool few = sites.size() <= kSample;
+  std::vector<Site<Dim>> spread;
+  if (!few) spread = spread_sample<Dim>(sites.view(), cell);
+  const std::span<const Site<Dim>> sample = few ? sites.all() : std::span<const Site<Dim>>(spread);
 
   Clusters<Dim> clusters = divide<Dim>(sample, [&](const Site<Dim>& site) { return frame.local(rules.snap.local(site))[axis] > 0.0; });
+  double last = kInfinity;
   for (int round = 0;; ++round) {
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     const Piece<Dim> first(clusters[0], cell, rules.snap), second(clusters[1], cell, rules.snap);
+    const double thickness = std::max(first.thickness(), second.thickness());
+    const bool thin = thickness <= 2.0 * rules.limit;
+    if (!thin && thickness > kProgress * last) return std::nullopt;
+    last = thickness;
     const auto nearer_second = [&](const Site<Dim>& site) {
       const Vec<Dim> p = rules.snap.local(site);
       return second.cost(p) < first.cost(p);
@@ -99,16 +122,20 @@ std::optional<Clusters<Dim>> two_clusters(std::span<const Site<Dim>> sites, cons
       clusters = std::move(next);
       continue;
     }
-    if (std::max(first.thickness(), second.thickness()) > 2.0 * rules.limit) return std::nullopt;
-    if (stride > 1) clusters = divide<Dim>(sites, nearer_second);
+    if (!thin) return std::nullopt;
+    if (few) return clusters;
+    if (shows_hole<Dim>(clusters[0], sites.view(), cell, first.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
+    if (shows_hole<Dim>(clusters[1], sites.view(), cell, second.frame, rules.snap, kClearHole * rules.limit)) return std::nullopt;
+    clusters = divide<Dim>(sites.all(), nearer_second);
     if (one_is_empty<Dim>(clusters)) return std::nullopt;
     return clusters;
   }
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                              \
-  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&); \
-  template std::optional<Clusters<D>> two_clusters<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
+#define VANTAGE_INSTANTIATE(D)                                                                                                        \
+  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&);                                    \
+  template bool shows_hole<D>(std::span<const Site<D>>, const SiteView<D>&, const Cell<D>&, const Frame<D>&, const Snap<D>&, double); \
+  template std::optional<Clusters<D>> two_clusters<D>(GatheredSites<D>&, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
 

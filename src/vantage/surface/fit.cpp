@@ -163,7 +163,7 @@ std::vector<std::uint32_t> all_of(std::span<const Site<Dim>> sites) {
 
 template <int Dim>
 Frame<Dim> frame_of(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
-  return principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), cell.low, rules.snap.step());
+  return principal_frame<Dim>(moments<Dim>(sites, cell.low, cell.bits), rules.snap.step());
 }
 
 /// Each cluster its own patch.
@@ -193,18 +193,22 @@ std::optional<Patch<Dim>> fit_flat(std::span<const Site<Dim>> sites, const Frame
 }
 
 template <int Dim>
-std::optional<CellFit<Dim>> fit_cell(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
-  if (sites.size() <= kFewSites) {
+std::optional<CellFit<Dim>> fit_cell(GatheredSites<Dim>& sites, const Moments<Dim>& moments, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+  const bool few = sites.size() <= kFewSites;
+  if (few) {
     Clusters<Dim> clusters;
-    const int parts = connected_parts<Dim>(sites, rules.snap, 2.0 * rules.limit * (1.0 + 1e-9), clusters);
+    const int parts = connected_parts<Dim>(sites.all(), rules.snap, 2.0 * rules.limit * (1.0 + 1e-9), clusters);
     if (parts >= 3) return std::nullopt;
     if (parts == 2) return fit_clusters<Dim>(clusters, cell, rules);
   }
-  const Frame<Dim> frame = frame_of<Dim>(sites, cell, rules);
-  if (const auto one = fit_flat<Dim>(sites, frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
+  const Frame<Dim> frame = principal_frame(moments, rules.snap.step());
+  const bool too_thick = frame.variance[Dim - 1] > rules.limit * rules.limit;  // The largest distance to the plane is at least the mean square's.
+  if (!too_thick && (few || !shows_hole<Dim>(spread_sample<Dim>(sites.view(), cell), sites.view(), cell, frame, rules.snap, rules.limit)))
+    if (const auto one = fit_flat<Dim>(sites.all(), frame, rules, &cell)) return CellFit<Dim>{{*one}, {}};
   for (int axis = 0; axis < Dim; ++axis)
-    if (const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis))
-      if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
+    if (frame.variance[axis] > kThin * kThin * rules.limit * rules.limit)
+      if (const auto clusters = two_clusters<Dim>(sites, cell, rules, frame, axis))
+        if (auto fit = fit_clusters<Dim>(*clusters, cell, rules)) return fit;
   return std::nullopt;
 }
 
@@ -242,7 +246,7 @@ Patch<Dim> loose_patch(const Site<Dim>& site, const FitRules<Dim>& rules) {
 
 #define VANTAGE_INSTANTIATE(D)                                                                                                 \
   template std::optional<Patch<D>> fit_flat<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&, const Cell<D>*); \
-  template std::optional<CellFit<D>> fit_cell<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                \
+  template std::optional<CellFit<D>> fit_cell<D>(GatheredSites<D>&, const Moments<D>&, const Cell<D>&, const FitRules<D>&);    \
   template CellFit<D> fit_at_limit<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);                           \
   template Patch<D> loose_patch<D>(const Site<D>&, const FitRules<D>&);
 VANTAGE_INSTANTIATE(2)

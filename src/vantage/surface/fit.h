@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vantage/geometry/patch.h"
-#include "vantage/surface/snap.h"
+#include "vantage/surface/site_view.h"
 
 namespace vantage {
 
@@ -31,10 +31,11 @@ template <int Dim>
 [[nodiscard]] std::optional<Patch<Dim>> fit_flat(std::span<const Site<Dim>> sites, const Frame<Dim>& frame, const FitRules<Dim>& rules,
                                                  const Cell<Dim>* cell);
 
-/// Steps 2 and 3 of the node rule, for at least rules.min_points sites in Morton order: one patch, or two for two clusters; nullopt: split the
-/// cell. A pure function of the multiset of sites.
+/// Steps 2 and 3 of the node rule, for at least rules.min_points sites and their moments: one patch, or two for two clusters; nullopt: split the
+/// cell. A pure function of the multiset of sites. Large cells that fail mostly do so without all their sites being read.
 template <int Dim>
-[[nodiscard]] std::optional<CellFit<Dim>> fit_cell(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules);
+[[nodiscard]] std::optional<CellFit<Dim>> fit_cell(GatheredSites<Dim>& sites, const Moments<Dim>& moments, const Cell<Dim>& cell,
+                                                   const FitRules<Dim>& rules);
 
 /// Step 4 at the depth limit: the flat through the sites for those it carries within the limit; the others are loose. In paper mode the best
 /// fit, whatever its error.

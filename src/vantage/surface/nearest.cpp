@@ -65,7 +65,7 @@ class PatchIndex {
 };
 
 template <int Dim>
-void collect(const typename Tree<Dim>::Node& node, const FitRules<Dim>& rules, std::vector<Patch<Dim>>& patches, std::vector<Site<Dim>>& sites) {
+void collect(const Node<Dim>& node, const FitRules<Dim>& rules, std::vector<Patch<Dim>>& patches, std::vector<Site<Dim>>& sites) {
   if (node.inner)
     for (const auto& child : node.inner->children) collect<Dim>(child, rules, patches, sites);
   if (!node.leaf) return;

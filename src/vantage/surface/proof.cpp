@@ -10,31 +10,6 @@ namespace {
 
 constexpr int kQueries = 96;  ///< Balls tried for islands.
 
-template <int Dim>
-Vec<Dim> place(const Site<Dim>& site) {
-  Vec<Dim> p;
-  for (int a = 0; a < Dim; ++a) p[a] = static_cast<double>(site[a]);
-  return p;
-}
-
-/// First and middle sites of the cell's grandchildren (spread over the cell, however dense the sites), neighbours far apart in the order.
-template <int Dim>
-std::vector<Site<Dim>> sample_of(std::span<const Site<Dim>> sites, const Cell<Dim>& cell) {
-  std::vector<Site<Dim>> near, sample;
-  const auto parts = cell.split(sites);
-  for (int c = 0; c < Cell<Dim>::kChildren && cell.bits > 1; ++c)
-    for (const auto& part : cell.child(c).split(parts[c])) {
-      if (part.empty()) continue;
-      near.push_back(part[0]);
-      if (part.size() > 1) near.push_back(part[part.size() / 2]);
-    }
-  constexpr std::size_t kStride = 37;  // Prime to the number of sites below, which is made a multiple of 8 and is below 8 * 37.
-  const std::size_t round = (near.size() + 7) / 8 * 8;
-  for (std::size_t i = 0; i < round; ++i)
-    if (const std::size_t n = i * kStride % round; n < near.size()) sample.push_back(near[n]);
-  return sample;
-}
-
 /// Are all simplices of `next` with Dim of the chosen wide enough?
 template <int Dim>
 bool in_general_position(std::span<const Vec<Dim>> chosen, const Vec<Dim>& next, double least_width) {
@@ -58,20 +33,9 @@ bool in_general_position(std::span<const Vec<Dim>> chosen, const Vec<Dim>& next,
 }  // namespace
 
 template <int Dim>
-bool is_empty_ball(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Vec<Dim>& center, double radius) {
-  if (sites.empty() || cell.box(1.0).distance(center) > radius) return true;
-  if (sites.size() <= 16 || cell.bits == 0)
-    return std::all_of(sites.begin(), sites.end(), [&](const Site<Dim>& site) { return (place<Dim>(site) - center).squaredNorm() > radius * radius; });
-  const auto parts = cell.split(sites);
-  for (int c = 0; c < Cell<Dim>::kChildren; ++c)
-    if (!is_empty_ball<Dim>(parts[c], cell.child(c), center, radius)) return false;
-  return true;
-}
-
-template <int Dim>
   requires SpatialDim<Dim>
-std::unique_ptr<Proof<Dim>> Proof<Dim>::find(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, double tolerance) {
-  const auto sample = sample_of<Dim>(sites, cell);
+std::unique_ptr<Proof<Dim>> Proof<Dim>::find(const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance) {
+  const auto sample = spread_sample<Dim>(sites, cell);
   Proof proof;
   if (proof.find_islands(sample, sites, cell, tolerance) || proof.find_general(sample, tolerance)) return std::make_unique<Proof>(proof);
   return nullptr;
@@ -82,7 +46,7 @@ template <int Dim>
 bool Proof<Dim>::find_general(std::span<const Site<Dim>> sample, double tolerance) {
   std::vector<Vec<Dim>> chosen;
   for (const Site<Dim>& site : sample) {
-    const Vec<Dim> p = place<Dim>(site);
+    const Vec<Dim> p = lattice_place<Dim>(site);
     // The first ones must lie apart, or every simplex with them is thin.
     const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const Vec<Dim>& q) { return (q - p).norm() > 4.0 * tolerance; });
     if (!apart || !in_general_position<Dim>(chosen, p, 2.0 * tolerance)) continue;
@@ -96,13 +60,13 @@ bool Proof<Dim>::find_general(std::span<const Site<Dim>> sample, double toleranc
 
 template <int Dim>
   requires SpatialDim<Dim>
-bool Proof<Dim>::find_islands(std::span<const Site<Dim>> sample, std::span<const Site<Dim>> sites, const Cell<Dim>& cell, double tolerance) {
+bool Proof<Dim>::find_islands(std::span<const Site<Dim>> sample, const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance) {
   int queries = 0;
   const int most_queries = static_cast<int>(std::min<std::size_t>(kQueries, sites.size() / 16));
   radius_ = 2.0 * tolerance;
   /// An empty ball between two sites.
   const auto gap = [&](const Site<Dim>& from, const Site<Dim>& to) -> std::optional<Vec<Dim>> {
-    const Vec<Dim> a = place<Dim>(from), b = place<Dim>(to);
+    const Vec<Dim> a = lattice_place<Dim>(from), b = lattice_place<Dim>(to);
     if ((b - a).norm() <= 2.0 * radius_) return std::nullopt;
     for (const double t : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875}) {
       if (++queries > most_queries) return std::nullopt;
@@ -145,10 +109,7 @@ bool Proof<Dim>::survives_removing(std::span<const Site<Dim>> sites) const {
                       [&](const Site<Dim>& site) { return std::binary_search(sites.begin(), sites.end(), site, morton_less<Dim>); });
 }
 
-#define VANTAGE_INSTANTIATE(D) \
-  template class Proof<D>;     \
-  template bool is_empty_ball<D>(std::span<const Site<D>>, const Cell<D>&, const Vec<D>&, double);
-VANTAGE_INSTANTIATE(2)
-VANTAGE_INSTANTIATE(3)
+template class Proof<2>;
+template class Proof<3>;
 
 }  // namespace vantage

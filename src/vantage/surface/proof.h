@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "vantage/surface/snap.h"
+#include "vantage/surface/site_view.h"
 
 namespace vantage {
 
@@ -21,8 +21,8 @@ class Proof {
   static constexpr int kGeneral = 2 * Dim + 1;
   static constexpr int kIslands = 3;
 
-  /// Looks for one in a sample of the sites of `cell` (in Morton order). May miss one that exists. nullptr: none found.
-  [[nodiscard]] static std::unique_ptr<Proof> find(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, double tolerance);
+  /// Looks for one in a sample of the sites of `cell`. May miss one that exists. nullptr: none found.
+  [[nodiscard]] static std::unique_ptr<Proof> find(const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance);
 
   /// Does it stand when these (in Morton order) are added, or taken out?
   [[nodiscard]] bool survives_adding(std::span<const Site<Dim>> sites, const Cell<Dim>& cell) const;
@@ -35,12 +35,8 @@ class Proof {
   int count_ = 0;  ///< kGeneral, or kIslands with as many balls.
 
   bool find_general(std::span<const Site<Dim>> sample, double tolerance);
-  bool find_islands(std::span<const Site<Dim>> sample, std::span<const Site<Dim>> sites, const Cell<Dim>& cell, double tolerance);
+  bool find_islands(std::span<const Site<Dim>> sample, const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance);
 };
-
-/// Is there no site within `radius` of `center`? `sites` are those of `cell`, in Morton order; lengths are in steps. Cost follows the ball, not the cell.
-template <int Dim>
-[[nodiscard]] bool is_empty_ball(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const Vec<Dim>& center, double radius);
 
 /// Least distance between two parallel planes (lines) with the simplex between them.
 template <int Dim>

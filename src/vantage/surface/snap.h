@@ -48,6 +48,14 @@ class Snap {
   double step_ = 0.0;
 };
 
+/// A site's coordinates in steps.
+template <int Dim>
+[[nodiscard]] Vec<Dim> lattice_place(const Site<Dim>& site) {
+  Vec<Dim> p;
+  for (int a = 0; a < Dim; ++a) p[a] = static_cast<double>(site[a]);
+  return p;
+}
+
 /// Along the Morton curve.
 template <int Dim>
 void sort_sites(std::vector<Site<Dim>>& sites);

@@ -63,7 +63,7 @@ struct HausdorffTree<Dim>::Impl {
   }
 
   /// Appends the patches below `node` in Morton order, those that meet `box` if given.
-  void collect(const typename Tree<Dim>::Node& node, const Cell<Dim>& cell, const Box<Dim>* box, std::vector<Patch<Dim>>& out) const {
+  void collect(const Node<Dim>& node, const Cell<Dim>& cell, const Box<Dim>* box, std::vector<Patch<Dim>>& out) const {
     const FitRules<Dim>& rules = tree.rules();
     if (box != nullptr && (node.inner || node.leaf)) {
       Box<Dim> reach = cell.box(rules.snap.step());

@@ -8,16 +8,6 @@
 
 namespace vantage {
 
-/// Sums over a subtree, by the names of SurfaceStatistics.
-struct Totals {
-  std::int64_t points = 0, nodes = 0, leaves = 0, fits = 0, segments = 0, loose = 0, dropped = 0;
-  int depth = 0;
-  float data_to_surface = 0.0F, surface_to_data = 0.0F;
-
-  void add(const Totals& other);
-  friend bool operator==(const Totals&, const Totals&) = default;
-};
-
 /// What an update did below a node.
 template <int Dim>
 struct Change {
@@ -37,24 +27,6 @@ struct Change {
 template <int Dim>
 class Tree {
  public:
-  struct Leaf {
-    std::vector<Site<Dim>> sites;      ///< In Morton order.
-    std::vector<Patch<Dim>> patches;   ///< Fits.
-    std::vector<std::uint32_t> loose;  ///< Numbers of the sites that stand for themselves, duplicates once.
-    std::int64_t dropped = 0;          ///< Sites without a patch (paper mode).
-  };
-  struct Inner;
-  /// An empty leaf has neither.
-  struct Node {
-    std::unique_ptr<Leaf> leaf;
-    std::unique_ptr<Inner> inner;
-  };
-  struct Inner {
-    std::array<Node, Cell<Dim>::kChildren> children;
-    Totals totals;
-    std::unique_ptr<Proof<Dim>> proof;  ///< That the cell had to be split; null if that takes reading all its sites.
-  };
-
   Tree(const FitRules<Dim>& rules, double eta, int max_depth) : rules_(rules), eta_(eta), max_depth_(max_depth) {}
 
   /// Adds sites, or takes out those that are there; they are in Morton order.
@@ -62,7 +34,7 @@ class Tree {
   Change<Dim> remove(std::span<const Site<Dim>> sites);
 
   [[nodiscard]] Totals totals() const { return totals(root_, Cell<Dim>{}); }
-  [[nodiscard]] const Node& root() const { return root_; }
+  [[nodiscard]] const Node<Dim>& root() const { return root_; }
   [[nodiscard]] const FitRules<Dim>& rules() const { return rules_; }
 
  private:
@@ -71,21 +43,18 @@ class Tree {
   FitRules<Dim> rules_;
   double eta_;
   int max_depth_;
-  Node root_;
+  Node<Dim> root_;
 
-  Change<Dim> update(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
-  Change<Dim> update_leaf(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
-  Change<Dim> build(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites);
-  Change<Dim> split(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites);
-  bool set_leaf(Node& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites) const;
-  std::unique_ptr<Proof<Dim>> prove(std::span<const Site<Dim>> sites, const Cell<Dim>& cell) const;
-  Box<Dim> bounds(const Node& node) const;
-  Totals totals(const Node& node, const Cell<Dim>& cell) const;
-  void sum_up(Inner& inner, const Cell<Dim>& cell) const;
+  Change<Dim> update(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
+  Change<Dim> update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
+  Change<Dim> build(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites);
+
+  bool set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>& moments) const;
+  std::unique_ptr<Proof<Dim>> prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const;
+  Box<Dim> bounds(const Node<Dim>& node) const;
+  Totals totals(const Node<Dim>& node, const Cell<Dim>& cell) const;
+  Moments<Dim> moments_of(const Node<Dim>& node, const Cell<Dim>& cell) const;
+  void sum_up(InnerNode<Dim>& inner, const Cell<Dim>& cell) const;
 };
-
-/// All sites below a node, in Morton order.
-template <int Dim>
-void gather(const typename Tree<Dim>::Node& node, std::vector<Site<Dim>>& out);
 
 }  // namespace vantage

@@ -9,9 +9,9 @@
 namespace vantage {
 namespace {
 
-constexpr int kRays = 25;                          ///< Of either kind.
+constexpr int kRays = 25;                           ///< Of either kind.
 constexpr double kGoldenAngle = 2.399963229728653;  ///< Spreads any number of azimuths evenly [rad].
-constexpr double kStep = 1e-6;                     ///< Surfaces closer to each other than this are one [m], also relative to the range.
+constexpr double kStep = 1e-6;                      ///< Surfaces closer to each other than this are one [m], also relative to the range.
 
 /// `rise` is the sine of the elevation; a plane has none.
 template <int Dim>

@@ -96,8 +96,10 @@ TYPED_TEST(Lidar, TellsHitsFromNoReturnsAndNoData) {
     for (int a = 0; a < Dim; ++a)
       if (rays[i][a] != 0.0) range = std::min(range, ((rays[i][a] > 0.0 ? 3.0 : -3.0) - origin[a]) / rays[i][a]);
     const float truth = exact(range), got = scan.ranges[i];
-    if (std::isfinite(truth)) ASSERT_FLOAT_EQ(got, truth);
-    else ASSERT_TRUE(std::isnan(truth) ? std::isnan(got) : got == kNoReturn) << range;
+    if (std::isfinite(truth))
+      ASSERT_FLOAT_EQ(got, truth);
+    else
+      ASSERT_TRUE(std::isnan(truth) ? std::isnan(got) : got == kNoReturn) << range;
     ++counts[std::isnan(got) ? 0 : std::isinf(got) ? 1 : 2];
   }
   for (const int count : counts) EXPECT_GT(count, 0);
@@ -135,7 +137,9 @@ TYPED_TEST(Lidar, DropsAndDisplacesTheAskedShare) {
   options.outliers = 0.1;
   SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
   const auto ranges = lidar.scan(Vec<Dim>::Zero(), 0).ranges;
-  const auto share = [&](auto&& test) { return static_cast<double>(std::count_if(ranges.begin(), ranges.end(), test)) / static_cast<double>(ranges.size()); };
+  const auto share = [&](auto&& test) {
+    return static_cast<double>(std::count_if(ranges.begin(), ranges.end(), test)) / static_cast<double>(ranges.size());
+  };
   EXPECT_NEAR(share([](float r) { return std::isnan(r); }), 0.2, 0.03);
   EXPECT_NEAR(share([](float r) { return r < 2.999F; }), 0.8 * 0.1, 0.02);
 }

@@ -29,15 +29,29 @@ std::uint64_t seed_of(const Values& values) { return static_cast<std::uint64_t>(
 const std::vector<Generator>& generators() {
   const SceneInfo::Parameter seed{"seed", 1, 0, 4294967295.0, "which of the random layouts"};
   static const std::vector<Generator> all{
+      {{"town", 3, "thirty buildings with interiors, a church, trees, cars, poles and wires, 200 x 150 m", {seed}},
+       [](const Values& v) { return make_town(seed_of(v)); }},
+      {{"patio", 3, "columns, tables, trees and the open edge of a building, 20 x 20 m (Figs. 5, 6)", {seed}},
+       [](const Values& v) { return make_patio(seed_of(v)); }},
+      {{"church", 3, "a church with tower and columns among houses, 50 x 50 m (Fig. 7)", {seed}},
+       [](const Values& v) { return make_church(seed_of(v)); }},
       {{"pipes",
         3,
-        "closed cylinders in open space, 20 x 20 x 10 m",
+        "closed cylinders in open space, 20 x 20 x 10 m (Figs. 3, 4)",
         {{"cylinders", 6, 1, 24, "how many"}, {"symmetric", 0, 0, 1, "1: upright, evenly on a circle; 0: along random axes"}, seed}},
        [](const Values& v) { return make_pipes(count_of(v, "cylinders"), count_of(v, "symmetric") != 0, seed_of(v)); }},
-      {{"planar", 2, "smooth blobs in the open, 20 x 20 m", {{"blobs", 5, 1, 12, "how many"}, seed}},
+      {{"planar", 2, "smooth blobs in the open, 20 x 20 m (Fig. 2)", {{"blobs", 5, 1, 12, "how many"}, seed}},
        [](const Values& v) { return make_planar(count_of(v, "blobs"), seed_of(v)); }},
       {{"discs", 2, "discs in the open, 30 x 30 m", {{"discs", 10, 1, 40, "how many"}, seed}},
        [](const Values& v) { return make_discs(count_of(v, "discs"), seed_of(v)); }},
+      {{"blocks",
+        2,
+        "a grid of city blocks and streets, 120 x 100 m",
+        {{"columns", 6, 1, 20, "blocks along x"}, {"rows", 5, 1, 20, "blocks along y"}, seed}},
+       [](const Values& v) { return make_blocks(count_of(v, "columns"), count_of(v, "rows"), seed_of(v)); }},
+      {{"office", 2, "rooms and doors along four corridors, enclosed, 40 x 30 m", {seed}}, [](const Values& v) { return make_office(seed_of(v)); }},
+      {{"town2d", 2, "hollow houses with rooms, doors and windows, 120 x 90 m", {{"houses", 15, 1, 60, "how many"}, seed}},
+       [](const Values& v) { return make_town2d(count_of(v, "houses"), seed_of(v)); }},
   };
   return all;
 }

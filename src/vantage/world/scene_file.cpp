@@ -1,14 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/world/scene_file.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <string>
+#include <vector>
 
 #include "vantage/base/error.h"
+#include "vantage/geometry/ray_caster.h"
+#include "vantage/io/mesh_file.h"
+#include "vantage/io/occupancy_map.h"
+#include "vantage/world/find_start.h"
+#include "vantage/world/map_scene_2d.h"
 
 namespace vantage {
+namespace {
 
-AnyScene load_scene_file(std::string_view spec_or_path, const SceneFileOptions&) {
-  throw Error(ErrorCode::io, "no reader for this kind of file", std::string(spec_or_path));
+namespace fs = std::filesystem;
+
+/// One path, or several joined by `+` unless a file has just that name.
+std::vector<fs::path> split(const fs::path& spec) {
+  std::error_code ignored;
+  std::string rest = spec.string();
+  if (fs::exists(spec, ignored)) return {spec};
+  std::vector<fs::path> paths;
+  for (std::size_t plus = rest.find('+'); plus != std::string::npos; plus = rest.find('+')) {
+    paths.emplace_back(rest.substr(0, plus));
+    rest.erase(0, plus + 1);
+  }
+  paths.emplace_back(rest);
+  return paths;
+}
+
+MeshFileOptions mesh_options(const SceneFileOptions& options) {
+  using Up = MeshFileOptions::Up;
+  const Up up = options.up == SceneFileOptions::Up::y ? Up::y : options.up == SceneFileOptions::Up::z ? Up::z : Up::file;
+  return {up, options.unit};
+}
+
+void append(Scene<3>& scene, const Mesh<3>& mesh, const std::string& part) {
+  const auto vertex = static_cast<std::uint32_t>(scene.mesh.vertices.size()), first = static_cast<std::uint32_t>(scene.mesh.facets.size());
+  scene.mesh.vertices.insert(scene.mesh.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  for (auto facet : mesh.facets) {
+    for (std::uint32_t& v : facet) v += vertex;
+    scene.mesh.facets.push_back(facet);
+  }
+  scene.parts.push_back({part, first, static_cast<std::uint32_t>(mesh.facets.size())});
+}
+
+/// Domain, scales and start from the mesh. The domain begins at the ground and leaves 2 to 5 m of air above the highest roof.
+void furnish(Scene<3>& scene) {
+  const RayCaster<3> world(scene.mesh);
+  scene.domain = scene.mesh.bounds();
+  const double longest = scene.domain.size().maxCoeff();
+  require(longest > 0.0 && longest < 1e7, fmt::format("the mesh spans {} m: must be > 0, < 1e7", longest), scene.name);
+  scene.domain.low[2] = ground_level(world, scene.domain);
+  scene.domain.high[2] += std::clamp(0.05 * scene.domain.size()[2], 2.0, 5.0);
+  scene.voxel = scene.clearance = nice_number(longest / 200.0);
+  scene.eta = 0.2 * scene.voxel;
+  scene.start = find_start(world, scene.domain, {scene.clearance, scene.range});
+}
+
+}  // namespace
+
+double nice_number(double value) {
+  constexpr std::array<double, 10> kSeries{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
+  double up = 1.0, down = 1.0;  // Powers of ten, multiplied or divided once: 0.15 comes out as 0.15.
+  while (value * down < 1.0) down *= 10.0;
+  while (value >= 10.0 * up) up *= 10.0;
+  const double mantissa = value * down / up;
+  const auto ratio = [&](double x) { return std::max(x / mantissa, mantissa / x); };
+  return *std::min_element(kSeries.begin(), kSeries.end(), [&](double a, double b) { return ratio(a) < ratio(b); }) * up / down;
+}
+
+AnyScene load_scene_file(const fs::path& spec, const SceneFileOptions& options) {
+  const std::vector<fs::path> paths = split(spec);
+  const std::string name = paths.front().stem().string();
+  if (paths.size() == 1 && is_map_file(spec)) return map_scene(read_occupancy_map(spec, options.unit), name, spec.string());
+  Scene<3> scene;
+  scene.name = name;
+  for (const fs::path& path : paths) {
+    require(is_mesh_file(path), fmt::format("not a scene file: its name must end in {}, or .yaml, .png, .pgm alone", mesh_extensions()),
+            path.string());
+    append(scene, read_mesh(path, mesh_options(options)), path.stem().string());
+  }
+  furnish(scene);
+  return scene;
 }
 
 }  // namespace vantage

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vantage/geometry/angle.h"
+#include "vantage/report/maps.h"
+#include "vantage/report/overlay.h"
+#include "vantage/report/pictures.h"
+#include "vantage/report/solids.h"
+#include "vantage/report/text.h"
+#include "vantage/report/unseen_faces.h"
+
+namespace vantage {
+
+namespace {
+
+constexpr double kLowColour = 0.2, kHighColour = 1.0;  ///< Part of viridis that reads on light and dark grounds.
+
+/// What the pictures frame: all that was met and visited inside the domain.
+Box<3> contents(const ReportInput<3>& input) {
+  Box<3> box;
+  for (const Patch<3>& patch : input.patches) {
+    const Box<3> part = patch.bounds().intersection(input.domain);
+    if (!part.empty()) box.extend(part);
+  }
+  for (const auto& points : input.scan_points) {
+    for (const Vec<3>& p : points) {
+      if (input.domain.contains(p)) box.extend(p);
+    }
+  }
+  for (const StepRecord<3>& step : input.steps) box.extend(step.vantage);
+  box = box.intersection(input.domain);
+  return box.empty() ? input.domain : box;
+}
+
+/// Looks along the longer side, from the south-west.
+Camera bird(const Box<3>& box, int width) {
+  const double azimuth = box.size().x() >= box.size().y() ? 66.0 : 24.0;
+  return Camera::bird(box, radians(azimuth), radians(38.0), {width, width * 7 / 10, 28.0});
+}
+
+/// Heights that leave out one in a hundred points at either end.
+std::pair<double, double> height_range(const ReportInput<3>& input) {
+  std::vector<double> heights;
+  const std::size_t stride = 8 * point_stride(input);
+  std::size_t index = 0;
+  for (const auto& points : input.scan_points) {
+    for (const Vec<3>& p : points) {
+      if (index++ % stride == 0 && input.domain.contains(p)) heights.push_back(p.z());
+    }
+  }
+  if (heights.empty()) return {input.domain.low.z(), input.domain.high.z()};
+  std::sort(heights.begin(), heights.end());
+  const double low = heights[heights.size() / 100], high = heights[heights.size() - 1 - heights.size() / 100];
+  return {low, std::max(high, low + 1e-3)};
+}
+
+double point_radius(const ReportInput<3>& input, const Camera& camera) {
+  const double drawn = static_cast<double>(point_count(input) / point_stride(input)) + 1.0;
+  return std::clamp(0.6 * std::sqrt(camera.width() * static_cast<double>(camera.height()) / drawn), 0.75, 3.0);
+}
+
+Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
+  const auto [low, high] = height_range(input);
+  Raster raster(camera);
+  const double radius = point_radius(input, camera);
+  for_drawn_points(input, [&, low = low, high = high](std::size_t, const Vec<3>& p) {
+    const double t = std::clamp((p.z() - low) / (high - low), 0.0, 1.0);
+    raster.point(p, radius, colour_of(ColourMap::viridis, kLowColour + (kHighColour - kLowColour) * t));
+  });
+  Figure figure{"points", "Everything the scanner measured", {}, {}, {}};
+  const std::size_t stride = point_stride(input);
+  const std::string share = stride > 1 ? fmt::format(" Every {}th is drawn.", stride) : std::string();
+  figure.caption = fmt::format("{} points of {}, coloured by height, with the vantage points and the path through them.{}",
+                               number(static_cast<std::int64_t>(point_count(input))), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
+  figure.legend = legend_bar(css_gradient(ColourMap::viridis, kLowColour, kHighColour), quantity(low, "m"), quantity(high, "m")) + journey_legend();
+  figure.panels.push_back({resolved(raster, {0.8}), journey_overlay(input, camera),
+                           fmt::format("Bird's view of the measured points, height {} to {}.", quantity(low, "m"), quantity(high, "m")), {}});
+  return figure;
+}
+
+Figure surface_figure(const ReportInput<3>& input, const Camera& camera) {
+  Raster raster(camera);
+  draw_patches(raster, input.patches, input.domain, Colours::by_kind);
+  Figure figure{"surface", "The surface rebuilt from the points", {}, {}, {}};
+  figure.caption = fmt::format("{} flat pieces, {} thin ones and {} single points; no measured point is farther than {} from them.",
+                               number(input.surface.fits), number(input.surface.segments), number(input.surface.loose_points),
+                               quantity(input.surface.data_to_surface, "m"));
+  figure.legend = legend_entry("area", css(kClay), "flat piece") + legend_entry("line", css(kWire), "thin piece (wire, pole, edge)") +
+                  legend_entry("dot", css(kLoose), "single point");
+  figure.panels.push_back({resolved(raster, {1.0}), {}, "Bird's view of the reconstructed surface, shaded.", {}});
+  return figure;
+}
+
+/// The unseen over the surfaces: stronger where nothing stands before it.
+Image unseen_image(const Raster& surfaces, const Raster& unseen) {
+  Image image = resolved(surfaces, {0.8}), veil = resolved(unseen, {0.8});
+  for (int y = 0; y < veil.height; ++y) {
+    for (int x = 0; x < veil.width; ++x) {
+      const int sx = x * Raster::kSamples, sy = y * Raster::kSamples;
+      const bool hidden = !unseen.empty(sx, sy) && !surfaces.empty(sx, sy) && surfaces.distance(sx, sy) < unseen.distance(sx, sy);
+      std::uint8_t& alpha = veil.pixel(x, y)[3];
+      alpha = static_cast<std::uint8_t>(alpha * (hidden ? 0.5 : 0.82));
+    }
+  }
+  lay_over(image, veil);
+  return image;
+}
+
+Figure unseen_figure(const ReportInput<3>& input, const Camera& camera) {
+  Raster surfaces(camera), unseen(camera);
+  draw_patches(surfaces, input.patches, input.domain, Colours::clay);
+  draw_unseen(unseen, input.state);
+  Figure figure{"unseen", "What stays unseen", {}, {}, {}};
+  figure.caption =
+      "The border between the space that was seen and the space that was not; it shows through the surfaces. Numbers are those of the table below.";
+  figure.legend = legend_entry("area", css(kUnseenColour), "unseen space") + legend_entry("area", css(kClay), "surface");
+  figure.panels.push_back({unseen_image(surfaces, unseen), unseen_overlay(input, camera),
+                           fmt::format("Bird's view of the unseen space, {} listed.",
+                                       counted(static_cast<std::int64_t>(input.verdict.unseen.size()), "region", "regions")),
+                           {}});
+  return figure;
+}
+
+/// Height of the plan's cut: that of the median vantage point.
+double plan_height(const ReportInput<3>& input) {
+  std::vector<double> heights;
+  for (const StepRecord<3>& step : input.steps) heights.push_back(step.vantage.z());
+  if (heights.empty()) return kInfinity;
+  std::sort(heights.begin(), heights.end());
+  return heights[heights.size() / 2];
+}
+
+Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
+  const Camera camera = Camera::map(box, map_frame(input.picture_width));
+  const double cut = plan_height(input);
+  Raster raster(camera);
+  draw_plan(raster, input.patches, input.domain, cut);
+  double length = 0.0;
+  for (const StepRecord<3>& step : input.steps) length += step.path_length;
+  Figure figure{"path", "The path", {}, {}, {}};
+  figure.caption = fmt::format("Plan, cut at a height of {1}, with the vantage points in their order: {0} of path in all.",
+                               quantity(length, "m"), quantity(cut, "m"));
+  figure.legend = journey_legend() + legend_entry("line", css(kSection), "wall at the cut");
+  figure.panels.push_back({resolved(raster, {0.0}), journey_overlay(input, camera) + scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
+                           "Plan of the place with the numbered vantage points and the path through them.", {}});
+  return figure;
+}
+
+}  // namespace
+
+template <>
+std::vector<Figure> pictures(const ReportInput<3>& input) {
+  std::vector<Figure> figures;
+  if (input.domain.empty()) return figures;
+  const Box<3> box = contents(input);
+  const Camera camera = bird(box, input.picture_width);
+  if (point_count(input) > 0) figures.push_back(points_figure(input, camera));
+  if (!input.patches.empty()) figures.push_back(surface_figure(input, camera));
+  if (input.state.window.size() > 0) figures.push_back(unseen_figure(input, camera));
+  if (!input.steps.empty()) figures.push_back(path_figure(input, box));
+  Figure metric = metric_figure(input.snapshots, panel_frame(input.picture_width));
+  if (!metric.panels.empty()) figures.push_back(std::move(metric));
+  return figures;
+}
+
+}  // namespace vantage

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "vantage/geometry/patch.h"
+#include "vantage/surface/snap.h"
+
+namespace vantage {
+
+template <int Dim>
+  requires SpatialDim<Dim>
+class Proof;
+template <int Dim>
+struct InnerNode;
+
+/// Sums over a subtree, by the names of SurfaceStatistics.
+struct Totals {
+  std::int64_t points = 0, nodes = 0, leaves = 0, fits = 0, segments = 0, loose = 0;
+  int depth = 0;
+  float data_to_surface = 0.0F, surface_to_data = 0.0F;
+
+  void add(const Totals& other);
+};
+
+template <int Dim>
+struct LeafNode {
+  std::vector<Site<Dim>> sites;      ///< In Morton order.
+  std::vector<Patch<Dim>> patches;   ///< Fits.
+  std::vector<std::uint32_t> loose;  ///< Numbers of the sites that stand for themselves, duplicates once.
+};
+
+/// Node of the Hausdorff tree; an empty leaf has neither.
+template <int Dim>
+struct Node {
+  std::unique_ptr<LeafNode<Dim>> leaf;
+  std::unique_ptr<InnerNode<Dim>> inner;
+};
+
+template <int Dim>
+struct InnerNode {
+  std::array<Node<Dim>, Cell<Dim>::kChildren> children;
+  Totals totals;
+  Moments<Dim> moments;               ///< Of all sites below.
+  std::unique_ptr<Proof<Dim>> proof;  ///< That the cell had to be split; null if none was found.
+};
+
+}  // namespace vantage
