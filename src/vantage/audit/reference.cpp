@@ -48,7 +48,7 @@ class Builder {
     const Grid<Dim> window = window_over(domain, 0.5 * options.voxel);
     const double count = window.extent.template cast<double>().prod();
     require(count < kNone, fmt::format("audit: {:.3g} nodes of the reference lattice: must be below {:.3g}, so coarser voxel", count, double{kNone}));
-    require_memory(count, sizeof(Truth) + sizeof(std::uint32_t) + 1, "nodes of the reference lattice");
+    require_memory(count, sizeof(Truth) + 2 * sizeof(std::uint32_t) + 1, "nodes of the reference lattice");
     reference_.nodes = Field<Dim, Truth>(window);
   }
 
@@ -123,13 +123,13 @@ class Builder {
   }
 
   void flood(std::size_t first) {
-    std::vector<std::size_t> queue{first};
+    std::vector<std::uint32_t> queue{static_cast<std::uint32_t>(first)};
     node(first).reachable = node(first).visible = true;
     for (std::size_t k = 0; k < queue.size(); ++k) {
       for_faces(grid(), queue[k], [&](std::size_t to) {
         if (node(to).reachable || !stands(node(to)) || !open(queue[k], to)) return;
         node(to).reachable = node(to).visible = true;
-        queue.push_back(to);
+        queue.push_back(static_cast<std::uint32_t>(to));
       });
     }
   }
