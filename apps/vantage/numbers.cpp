@@ -7,7 +7,7 @@
 
 std::string grouped(std::int64_t value) {
   std::string digits = fmt::format("{}", value);
-  for (int i = static_cast<int>(digits.size()) - 3; i > (value < 0 ? 1 : 0); i -= 3) digits.insert(digits.begin() + i, ',');
+  for (int i = static_cast<int>(digits.size()) - 3; i > (value < 0 ? 1 : 0); i -= 3) digits.insert(static_cast<std::size_t>(i), 1, ',');
   return digits;
 }
 

@@ -91,5 +91,25 @@ TEST(BeliefWindows, LocalUpdatesEqualRedistancingTheWholeDomain) {
   for (std::size_t i = 0; i < psi.values.size(); ++i) ASSERT_EQ(psi[i], belief.view().psi[i]) << whole.position(i).transpose();
 }
 
+/// Extrusion law: a plane's union, extruded, is the union on every slice. eta is wider than the obstacle blanket of both dimensions.
+TEST(BeliefExtrusion, UnionAgreesOnEverySlice) {
+  constexpr double kWide = 0.6;
+  const Grid<2> plane = domain<2>();
+  const Grid<3> solid{kH, {plane.first[0], plane.first[1], -1}, {plane.extent[0], plane.extent[1], 4}};
+  Belief<2> flat(plane, kWide);
+  Belief<3> tall(solid, kWide);
+  for (const double x : {2.0, 5.0}) {
+    const Field<2> phi = ball_view<2>(plane, Vec<2>::Constant(x), 2.5);
+    Field<3> extruded(solid);
+    for (std::size_t i = 0; i < extruded.values.size(); ++i) extruded[i] = phi[i % phi.values.size()];
+    flat.unite(phi);
+    tall.unite(extruded);
+  }
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    ASSERT_EQ(tall.view().state[i], flat.view().state[i % plane.size()]);
+    ASSERT_EQ(tall.view().psi[i], flat.view().psi[i % plane.size()]);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

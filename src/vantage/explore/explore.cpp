@@ -158,6 +158,9 @@ struct Explorer<Dim>::Impl {
     using End = typename Decision<Dim>::End;
     constexpr double kComplete = 0.99;  // Of what can be seen, as estimated.
     verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete;
+    if (decision.end == End::none)
+      for (UnseenRegion<Dim>& region : verdict.unseen)
+        if (region.reason == "below the threshold") region.reason = "not looked at yet";
     switch (decision.end) {
       case End::nothing_can_open: verdict.reason = "No reachable place shows anything new."; break;
       case End::below_threshold:

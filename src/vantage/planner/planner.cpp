@@ -255,7 +255,7 @@ Verdict<Dim> Planner<Dim>::assess(const BeliefView<Dim>& view) const {
     least = 1.0;
     for (int a = 0; a < Dim; ++a) least *= 3.0 * view.window().spacing;
   }
-  return vantage::assess<Dim>(view, opening_.faces(), reachable_, opacity_, least);
+  return vantage::assess<Dim>(view, opening_.faces(), reachable_, {opacity_, max_range_, least});
 }
 
 template class Planner<2>;

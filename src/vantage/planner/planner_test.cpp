@@ -273,6 +273,24 @@ TYPED_TEST(PlannerTest, AClosedBoxIsCompleteAndNamesWhatIsEnclosed) {
   EXPECT_EQ(verdict.unseen[0].reason, "enclosed");
 }
 
+/// Beyond a gulf the scanner cannot cross, and farther than it sees.
+TYPED_TEST(PlannerTest, RegionsBeyondRangeOrReachAreNamedSo) {
+  constexpr int Dim = TypeParam::value;
+  const HandMade<Dim> belief(cube<Dim>(8.0), [](const Vec<Dim>& p) {
+    if (std::abs(p[0]) < 0.3) return NodeState::obstacle;
+    return p[0] < 5.0 ? NodeState::seen : NodeState::unseen;
+  });
+  OpeningModel<Dim> opening(OpeningModel<Dim>::Rule::learned);
+  opening.update(belief.view(), on_axis<Dim>(-4.0), 80.0);
+  const auto reached = reachable_nodes<Dim>(belief.view(), on_axis<Dim>(-4.0), 0.3);
+  const auto reason = [&](double range) {
+    const Verdict<Dim> verdict = assess<Dim>(belief.view(), opening.faces(), reached, {0.1, range, 0.0});
+    return verdict.unseen.at(0).reason;
+  };
+  EXPECT_EQ(reason(80.0), "no reachable view");
+  EXPECT_EQ(reason(3.0), "beyond range");
+}
+
 TYPED_TEST(PlannerTest, GoesToTheDoorByASafePath) {
   constexpr int Dim = TypeParam::value;
   // The second room is unseen but for what shows through the door.

@@ -65,6 +65,21 @@ double depth_behind(const BeliefView<Dim>& view, const BoundaryFace<Dim>& face, 
   return std::min(depth, limit);
 }
 
+/// Bounding box of the nodes that are not 0 [m].
+template <int Dim>
+Box<Dim> bounds_of(const Field<Dim, std::uint8_t>& nodes) {
+  Box<Dim> box;
+  for (std::size_t i = 0; i < nodes.values.size(); ++i)
+    if (nodes[i] != 0) box.extend(nodes.window.position(i));
+  return box;
+}
+
+/// Distance between two boxes; 0 if they meet [m].
+template <int Dim>
+double gap(const Box<Dim>& a, const Box<Dim>& b) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
+}
+
 template <int Dim>
 double cell_measure(double h, int power) {
   double value = 1.0;
@@ -75,13 +90,13 @@ double cell_measure(double h, int power) {
 }  // namespace
 
 template <int Dim>
-Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable, double opacity,
-                    double least_volume) {
+Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
+                    const AssessOptions& options) {
   const Grid<Dim>& grid = view.window();
   const double h = grid.spacing, cell = cell_measure<Dim>(h, Dim), face_area = cell_measure<Dim>(h, Dim - 1);
   Components<Dim> components(view);
   // Behind a face that opens one sees as deep as it goes, or a mean free path.
-  const double free_path = opacity > 0.0 ? 1.0 / opacity : kInfinity;
+  const double free_path = options.opacity > 0.0 ? 1.0 / options.opacity : kInfinity;
   for (const BoundaryFace<Dim>& face : faces) {
     auto& part = components.parts[static_cast<std::size_t>(components.label[face.unseen])];
     const double behind = face_area * depth_behind(view, face, free_path);
@@ -92,6 +107,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
     part.open_least += face.probability >= 0.5 ? behind * face.probability : 0.0;
   }
 
+  const Box<Dim> ground = bounds_of(reachable);
   double open = 0.0, open_most = 0.0, open_least = 0.0;
   Verdict<Dim> verdict;
   for (const auto& part : components.parts) {
@@ -100,7 +116,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
     open_most += std::min(volume, part.open_most);
     open_least += std::min(volume, part.open_least);
     verdict.unseen_volume += volume;
-    if (volume < least_volume) continue;
+    if (volume < options.least_volume) continue;
     UnseenRegion<Dim> region;
     region.volume = volume;
     region.may_open = std::min(volume, part.open);
@@ -110,7 +126,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
     else if (part.deepest < h)
       region.reason = "too fine for the lattice";
     else if (!part.reachable)
-      region.reason = "no reachable view";
+      region.reason = gap(region.box, ground) > options.max_range ? "beyond range" : "no reachable view";
     else
       region.reason = "below the threshold";
     verdict.unseen.push_back(region);
@@ -125,7 +141,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   return verdict;
 }
 
-template Verdict<2> assess<2>(const BeliefView<2>&, std::span<const BoundaryFace<2>>, const Field<2, std::uint8_t>&, double, double);
-template Verdict<3> assess<3>(const BeliefView<3>&, std::span<const BoundaryFace<3>>, const Field<3, std::uint8_t>&, double, double);
+template Verdict<2> assess<2>(const BeliefView<2>&, std::span<const BoundaryFace<2>>, const Field<2, std::uint8_t>&, const AssessOptions&);
+template Verdict<3> assess<3>(const BeliefView<3>&, std::span<const BoundaryFace<3>>, const Field<3, std::uint8_t>&, const AssessOptions&);
 
 }  // namespace vantage

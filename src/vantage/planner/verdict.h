@@ -15,7 +15,7 @@ struct UnseenRegion {
   double volume = 0.0;    ///< [m^Dim]
   double may_open = 0.0;  ///< Expected to be seen from somewhere [m^Dim].
   Box<Dim> box;           ///< [m]
-  std::string reason;     ///< "enclosed", "no reachable view", "beyond range", "below the threshold", "too fine for the lattice"
+  std::string reason;     ///< "enclosed", "no reachable view", "beyond range", "below the threshold", "too fine for the lattice", "not looked at yet"
 };
 
 /// Why the run ended, and what is left.
@@ -29,10 +29,15 @@ struct Verdict {
   std::vector<UnseenRegion<Dim>> unseen;   ///< Largest first; the smallest are left out.
 };
 
-/// What is left to see: shares and regions; `complete` and `reason` are the caller's. `opacity` is measured_opacity times its factor [1/m];
-/// `least_volume` bounds the regions listed [m^Dim].
+struct AssessOptions {
+  double opacity = 0.0;       ///< measured_opacity times its factor [1/m].
+  double max_range = 80.0;    ///< Of the sensor [m].
+  double least_volume = 0.0;  ///< Smaller regions are not listed [m^Dim].
+};
+
+/// What is left to see: shares and regions; `complete` and `reason` of the whole are the caller's.
 template <int Dim>
 [[nodiscard]] Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
-                                  double opacity, double least_volume);
+                                  const AssessOptions& options);
 
 }  // namespace vantage
