@@ -104,7 +104,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
     part.reachable = part.reachable || reachable[face.seen] != 0;
     part.open += behind * face.probability;
     part.open_most += behind * std::min(1.0, 2.0 * face.probability);
-    part.open_least += face.probability >= 0.5 ? behind * face.probability : 0.0;
+    part.open_least += face.probability >= 0.9 ? behind * face.probability : 0.0;  // What is all but sure.
   }
 
   const Box<Dim> ground = bounds_of(reachable);
