@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vantage/geometry/disc_cover.h"
 #include "vantage/geometry/feet_lattice.h"
 
 namespace vantage {
@@ -12,6 +13,8 @@ namespace {
 constexpr double kRatio = 1.1;       ///< Upper bound over truth.
 constexpr double kUndecided = 1e-6;  ///< Of the limit: so near to it, the answer is no.
 
+/// For so many feet, discs are the fastest way to decide.
+constexpr std::size_t kFewFeet = 64;
 /// So many feet are sorted into a lattice first.
 constexpr std::size_t kManyFeet = 256;
 
@@ -38,12 +41,16 @@ class Search {
  public:
   using Place = typename ConvexRegion<Rank>::Place;
 
-  Search(const ConvexRegion<Rank>& region, Arena<Rank>& arena, double limit) : region_(region), edges_(region), arena_(arena), limit_(limit) {}
+  Search(const ConvexRegion<Rank>& region, Arena<Rank>& arena, double limit, bool sharp)
+      : region_(region), edges_(region), arena_(arena), limit_(limit), sharp_(sharp || !std::isfinite(limit)) {}
+
+  /// A place farther away than the limit, once a search has found one.
+  [[nodiscard]] const Place& farthest() const { return farthest_; }
 
   /// The same from the cells of a lattice, the most promising first; the arena is empty.
   std::optional<double> run(const FeetLattice<Rank>& lattice) {
     for (int i = 0; i < region_.count; ++i)
-      if (!raise_lower(lattice.nearest(region_.vertices[i]))) return std::nullopt;
+      if (!raise_lower(lattice.nearest(region_.vertices[i]), region_.vertices[i])) return std::nullopt;
     const Place half = lattice.half();
     const double radius = half.norm();
     tiny_ = std::isfinite(limit_) ? kUndecided / 2.0 * limit_ : 1e-10 * radius;
@@ -70,7 +77,7 @@ class Search {
     for (int i = 0; i < region_.count; ++i) {
       low = low.cwiseMin(region_.vertices[i]);
       high = high.cwiseMax(region_.vertices[i]);
-      if (!raise_lower(nearest(region_.vertices[i], all))) return std::nullopt;
+      if (!raise_lower(nearest(region_.vertices[i], all), region_.vertices[i])) return std::nullopt;
     }
     Item root{0.5 * (low + high), 0.5 * (high - low), all, 0.0, true, false};
     root.upper = root.half.norm() + nearest(root.center, all);
@@ -95,14 +102,21 @@ class Search {
   RegionEdges<Rank> edges_;
   Arena<Rank>& arena_;
   double limit_;
+  bool sharp_;
+  Place farthest_ = Place::Zero();
   double lower_ = 0.0, upper_ = 0.0, tiny_ = 0.0;
 
   /// False: the limit is passed.
-  bool raise_lower(double value) {
-    lower_ = std::max(lower_, value);
+  bool raise_lower(double value, const Place& place) {
+    if (value <= lower_) return true;
+    lower_ = value;
+    farthest_ = place;
     return lower_ <= limit_;
   }
-  [[nodiscard]] double good_enough() const { return std::min(limit_, std::max(kRatio * lower_, std::isfinite(limit_) ? 1e-6 * limit_ : 0.0)); }
+  [[nodiscard]] double good_enough() const {
+    if (!sharp_) return limit_;
+    return std::min(limit_, std::max(kRatio * lower_, std::isfinite(limit_) ? 1e-6 * limit_ : 0.0));
+  }
 
   [[nodiscard]] double distance2(std::size_t i, const Place& p) const {
     double sum = arena_.height2[i];
@@ -162,10 +176,10 @@ class Search {
       }
     }
     const double distance = std::sqrt(best2);
-    if (!raise_lower(distance - apart)) return std::nullopt;
+    if (!raise_lower(distance - apart, inside)) return std::nullopt;
     // The parent's points serve places within its circle only.
     const bool served = (inside - parent.center).squaredNorm() <= parent.half.squaredNorm();
-    if (apart > 0.0 && served && distance + apart > lower_ && !raise_lower(nearest(inside, parents))) return std::nullopt;
+    if (apart > 0.0 && served && distance + apart > lower_ && !raise_lower(nearest(inside, parents), inside)) return std::nullopt;
     double corner2 = arena_.height2[best];  // The nearest point to the box's farthest corner.
     for (int k = 0; k < Rank; ++k) {
       const double d = std::abs(arena_.at[k][best] - center[k]) + half[k];
@@ -220,13 +234,32 @@ class Search {
   }
 };
 
+/// Is the place in the region, and farther than the limit from all points?
+bool passes_limit(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const ConvexRegion<2>::Place& p) {
+  if (RegionEdges<2>(region).outside(p) > 0.0) return false;
+  double best2 = kInfinity;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double dx = points.at[0][i] - p[0], dy = points.at[1][i] - p[1];
+    best2 = std::min(best2, dx * dx + dy * dy + points.height2[i]);
+  }
+  return best2 > limit * limit;
+}
+
 }  // namespace
 
-template <int Rank>
-std::optional<double> covering_radius(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit) {
-  if (region.count == 0) return 0.0;
-  if (points.size() == 0) return std::nullopt;
+template <>
+Covering<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search) {
+  constexpr int Rank = 2;
+  if (region.count == 0) return {0.0, {}};
+  if (points.size() == 0) return {std::nullopt, region.vertices[0]};
+  if (search.first != nullptr && passes_limit(region, points, limit, *search.first)) return {std::nullopt, *search.first};
+  if (!search.sharp && points.size() <= kFewFeet) {
+    const auto uncovered = find_uncovered(region, points, limit);
+    return uncovered ? Covering<2>{std::nullopt, *uncovered} : Covering<2>{limit, {}};
+  }
   thread_local Arena<Rank> arena;
+  Search<Rank> bound(region, arena, limit, search.sharp);
+  std::optional<double> radius;
   if (points.size() >= kManyFeet) {
     typename ConvexRegion<Rank>::Place low = region.vertices[0], high = low;
     for (int i = 1; i < region.count; ++i) {
@@ -235,16 +268,15 @@ std::optional<double> covering_radius(const ConvexRegion<Rank>& region, const Fe
     }
     const FeetLattice<Rank> lattice(points, low, high);
     arena.size = 0;
-    return Search<Rank>(region, arena, limit).run(lattice);
+    radius = bound.run(lattice);
+  } else {
+    arena.reserve(2 * points.size());
+    for (int k = 0; k < Rank; ++k) std::copy(points.at[k].begin(), points.at[k].end(), arena.at[k].begin());
+    std::copy(points.height2.begin(), points.height2.end(), arena.height2.begin());
+    arena.size = points.size();
+    radius = bound.run();
   }
-  arena.reserve(2 * points.size());
-  for (int k = 0; k < Rank; ++k) std::copy(points.at[k].begin(), points.at[k].end(), arena.at[k].begin());
-  std::copy(points.height2.begin(), points.height2.end(), arena.height2.begin());
-  arena.size = points.size();
-  return Search<Rank>(region, arena, limit).run();
+  return {radius, bound.farthest()};
 }
-
-template std::optional<double> covering_radius<1>(const ConvexRegion<1>&, const Feet<1>&, double);
-template std::optional<double> covering_radius<2>(const ConvexRegion<2>&, const Feet<2>&, double);
 
 }  // namespace vantage

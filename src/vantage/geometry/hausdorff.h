@@ -25,11 +25,39 @@ struct Feet {
 template <int Rank>
 [[nodiscard]] ConvexRegion<Rank> outline(const Feet<Rank>& feet);
 
-/// delta(region, points), Eq. (3): the largest distance of a place of the region to its nearest point [m]. Decided, not sampled: the distance to
-/// a set is 1-Lipschitz, so branch and bound over the region has bounds on both sides. Returns an upper bound that is <= `limit` and at most
-/// 10 % above the truth (or above 10^-6 of a finite limit), or nullopt if the truth is above the limit (or within 10^-6 of it). `limit` may be
-/// infinite. Nothing reaches an empty set of points. After DeVore et al. [5], whose test samples.
+/// delta(region, points), Eq. (3): the largest distance of a place of the region to its nearest point.
 template <int Rank>
-[[nodiscard]] std::optional<double> covering_radius(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit);
+struct Covering {
+  std::optional<double> radius;                 ///< An upper bound [m]; nullopt if the limit is passed.
+  typename ConvexRegion<Rank>::Place farthest;  ///< If the limit is passed: a place (nearly) that far away.
+};
+
+/// How hard to look.
+template <int Rank>
+struct CoverSearch {
+  bool sharp = false;  ///< The radius is at most 10 % above the truth (or 10^-6 of a finite limit); else any bound up to the limit will do.
+  const typename ConvexRegion<Rank>::Place* first = nullptr;  ///< A place to look at first, if the region has it.
+};
+
+/// Relative rounding that a radius allows for.
+inline constexpr double kCoverRounding = 1e-9;
+
+/// The covering radius of a region, up to `limit` [m]. Decided, not sampled: a radius is given if the truth is at most the limit, and none if it
+/// is above (or within 10^-6 of it). On a line the truth is found itself; in the plane the distance to a set is 1-Lipschitz, so branch and
+/// bound over the region has bounds on both sides. `limit` may be infinite in a sharp search. Nothing reaches an empty set of points. After DeVore
+/// et al. [5], whose test samples.
+template <int Rank>
+[[nodiscard]] Covering<Rank> cover(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit, const CoverSearch<Rank>& search);
+
+template <>
+Covering<1> cover(const ConvexRegion<1>& region, const Feet<1>& points, double limit, const CoverSearch<1>& search);
+template <>
+Covering<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search);
+
+/// The sharp radius alone.
+template <int Rank>
+[[nodiscard]] std::optional<double> covering_radius(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit) {
+  return cover<Rank>(region, points, limit, {true, nullptr}).radius;
+}
 
 }  // namespace vantage

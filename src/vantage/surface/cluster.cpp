@@ -49,34 +49,28 @@ bool one_is_empty(const Clusters<Dim>& clusters) {
 }  // namespace
 
 template <int Dim>
-int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, double reach, Clusters<Dim>& clusters) {
-  thread_local std::vector<Vec<Dim>> places;
-  thread_local std::vector<std::uint32_t> order;  // Reached ones first, in the order in which they are looked at.
-  const std::size_t count = sites.size();
+void find_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, double reach, Parts& parts) {
+  thread_local std::vector<Vec<Dim>> places;  // In the order of parts.order: reached ones first, in the order in which they are looked at.
   places.clear();
-  order.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  parts.order.resize(sites.size());
+  parts.starts.assign(1, 0);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
     places.push_back(snap.local(sites[i]));
-    order[i] = static_cast<std::uint32_t>(i);
+    parts.order[i] = static_cast<std::uint32_t>(i);
   }
-  std::size_t reached = 0, looked = 0, first_part = count;
-  for (int parts = 0;; ++parts) {
-    if (reached == count) {
-      if (parts == 2) {
-        std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(first_part));
-        std::sort(order.begin() + static_cast<std::ptrdiff_t>(first_part), order.end());
-        for (std::size_t i = 0; i < count; ++i) clusters[i < first_part ? 0 : 1].push_back(sites[order[i]]);
-      }
-      return parts;
-    }
-    if (parts == 1) first_part = reached;
-    if (parts == 2) return 3;
+  for (std::size_t reached = 0, looked = 0; reached < sites.size();) {
     ++reached;  // A seed.
     for (; looked < reached; ++looked) {
-      const Vec<Dim> from = places[order[looked]];
-      for (std::size_t i = reached; i < count; ++i)
-        if ((places[order[i]] - from).squaredNorm() <= reach * reach) std::swap(order[i], order[reached++]);
+      const Vec<Dim> from = places[looked];
+      for (std::size_t i = reached; i < places.size(); ++i)
+        if ((places[i] - from).squaredNorm() <= reach * reach) {
+          std::swap(places[i], places[reached]);
+          std::swap(parts.order[i], parts.order[reached++]);
+        }
     }
+    const auto begin = parts.order.begin() + parts.starts.back();
+    std::sort(begin, parts.order.begin() + static_cast<std::ptrdiff_t>(reached));
+    parts.starts.push_back(static_cast<std::uint32_t>(reached));
   }
 }
 
@@ -133,7 +127,7 @@ std::optional<Clusters<Dim>> two_clusters(GatheredSites<Dim>& sites, const Cell<
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                                                                       \
-  template int connected_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Clusters<D>&);                                                   \
+  template void find_parts<D>(std::span<const Site<D>>, const Snap<D>&, double, Parts&);                                                             \
   template bool shows_hole<D>(std::span<const std::array<Site<D>, 2>>, const SiteView<D>&, const Cell<D>&, const Frame<D>&, const Snap<D>&, double); \
   template std::optional<Clusters<D>> two_clusters<D>(GatheredSites<D>&, const Cell<D>&, const FitRules<D>&, const Frame<D>&, int);
 VANTAGE_INSTANTIATE(2)

@@ -12,10 +12,20 @@ namespace vantage {
 template <int Dim>
 using Clusters = std::array<std::vector<Site<Dim>>, 2>;
 
-/// Number of parts (1, 2, or 3 for more) into which the sites fall if those within `reach` of each other [m] are joined. A patch is connected, so
-/// one within the limit both ways carries points of one part only, for a reach of twice the limit; two parts are written to `clusters`.
+/// Sites by the parts into which they fall if those within some reach of each other are joined.
+struct Parts {
+  std::vector<std::uint32_t> order;   ///< Numbers of the sites, part by part, rising within one.
+  std::vector<std::uint32_t> starts;  ///< Where each part begins in `order`, and where the last one ends.
+
+  [[nodiscard]] std::size_t size() const { return starts.size() - 1; }
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t part) const {
+    return std::span(order).subspan(starts[part], starts[part + 1] - starts[part]);
+  }
+};
+
+/// A patch is connected: one within the limit both ways carries sites of one part only, for a `reach` [m] of twice the limit. Quadratic time.
 template <int Dim>
-[[nodiscard]] int connected_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, double reach, Clusters<Dim>& clusters);
+void find_parts(std::span<const Site<Dim>> sites, const Snap<Dim>& snap, double reach, Parts& parts);
 
 /// Splits the sites of a cell into two clusters, each near a piece of a plane of its own; `axis` of the frame gives the first cut. nullopt
 /// if that leads nowhere: a cluster runs empty, or a sample of the points already lies off both pieces or shows a hole. Deterministic in the

@@ -70,8 +70,8 @@ void collect(const Node<Dim>& node, const FitRules<Dim>& rules, std::vector<Patc
     for (const auto& child : node.inner->children) collect<Dim>(child, rules, patches, sites);
   if (!node.leaf) return;
   sites.insert(sites.end(), node.leaf->sites.begin(), node.leaf->sites.end());
-  patches.insert(patches.end(), node.leaf->patches.begin(), node.leaf->patches.end());
-  for (const std::uint32_t i : node.leaf->loose) patches.push_back(loose_patch<Dim>(node.leaf->sites[i], rules));
+  patches.insert(patches.end(), node.leaf->fit.patches.begin(), node.leaf->fit.patches.end());
+  for (const std::uint32_t i : node.leaf->fit.loose) patches.push_back(loose_patch<Dim>(node.leaf->sites[i], rules));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vantage/geometry/patch.h"
+#include "vantage/surface/cell_fit.h"
 #include "vantage/surface/snap.h"
 
 namespace vantage {
@@ -26,9 +27,9 @@ struct Totals {
 
 template <int Dim>
 struct LeafNode {
-  std::vector<Site<Dim>> sites;      ///< In Morton order.
-  std::vector<Patch<Dim>> patches;   ///< Fits.
-  std::vector<std::uint32_t> loose;  ///< Numbers of the sites that stand for themselves, duplicates once.
+  std::vector<Site<Dim>> sites;  ///< In Morton order.
+  CellFit<Dim> fit;              ///< Of its loose sites, duplicates are there once.
+  bool sharp = false;            ///< Its bounds are.
 };
 
 /// Node of the Hausdorff tree; an empty leaf has neither.
@@ -42,8 +43,9 @@ template <int Dim>
 struct InnerNode {
   std::array<Node<Dim>, Cell<Dim>::kChildren> children;
   Totals totals;
-  Moments<Dim> moments;               ///< Of all sites below.
-  std::unique_ptr<Proof<Dim>> proof;  ///< That the cell had to be split; null if none was found.
+  bool sharp = false;                     ///< All bounds below are.
+  std::unique_ptr<Proof<Dim>> proof;      ///< That the cell had to be split; null if none was found.
+  std::unique_ptr<Moments<Dim>> moments;  ///< Of all sites below, in large cells without a proof: these are asked again.
 };
 
 }  // namespace vantage

@@ -71,13 +71,15 @@ struct HausdorffTree<Dim>::Impl {
       if (reach.intersection(*box).empty()) return;
     }
     const auto take = [&](const Patch<Dim>& patch) {
-      if (box == nullptr || !patch.bounds().intersection(*box).empty()) out.push_back(patch);
+      if (box != nullptr && patch.bounds().intersection(*box).empty()) return;
+      out.push_back(patch);
+      if (box != nullptr && !options.paper) out.back().data_to_surface = out.back().surface_to_data = static_cast<float>(options.eta);
     };
     if (node.inner)
       for (int c = 0; c < Cell<Dim>::kChildren; ++c) collect(node.inner->children[c], cell.child(c), box, out);
     if (node.leaf) {
-      for (const Patch<Dim>& patch : node.leaf->patches) take(patch);
-      for (const std::uint32_t i : node.leaf->loose) take(loose_patch<Dim>(node.leaf->sites[i], rules));
+      for (const Patch<Dim>& patch : node.leaf->fit.patches) take(patch);
+      for (const std::uint32_t i : node.leaf->fit.loose) take(loose_patch<Dim>(node.leaf->sites[i], rules));
     }
   }
 
@@ -120,6 +122,7 @@ template <int Dim>
   requires SpatialDim<Dim>
 std::vector<Patch<Dim>> HausdorffTree<Dim>::patches() const {
   std::vector<Patch<Dim>> out;
+  impl_->tree.sharpen();
   const Totals totals = impl_->tree.totals();
   out.reserve(static_cast<std::size_t>(totals.fits + totals.segments + totals.loose));
   impl_->collect(impl_->tree.root(), {}, nullptr, out);
@@ -137,6 +140,7 @@ std::vector<Patch<Dim>> HausdorffTree<Dim>::patches(const Box<Dim>& box) const {
 template <int Dim>
   requires SpatialDim<Dim>
 SurfaceStatistics HausdorffTree<Dim>::statistics() const {
+  impl_->tree.sharpen();
   const Totals totals = impl_->tree.totals();
   SurfaceStatistics out;
   out.points = totals.points;

@@ -60,9 +60,10 @@ class HausdorffTree {
   /// Takes points out again, as if they had never been added. Points that are not there are ignored.
   SurfaceUpdate<Dim> remove(std::span<const Vec<Dim>> points);
 
-  /// All patches in the order of the cells (Morton).
+  /// All patches in the order of the cells (Morton), with bounds at most 10 % above the truth. These are worked out when asked for, here and
+  /// by statistics(), for what has changed since: not from two threads at once.
   [[nodiscard]] std::vector<Patch<Dim>> patches() const;
-  /// Those whose bounding boxes meet `box`, in the same order. Cost follows the cells that meet it.
+  /// Those whose bounding boxes meet `box`, in the same order, with the bounds that need no work: eta. Cost follows the cells that meet it.
   [[nodiscard]] std::vector<Patch<Dim>> patches(const Box<Dim>& box) const;
   [[nodiscard]] SurfaceStatistics statistics() const;
   [[nodiscard]] const SurfaceOptions& options() const;

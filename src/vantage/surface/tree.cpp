@@ -12,16 +12,44 @@ namespace {
 constexpr std::size_t kProofPoints = 256;
 constexpr std::size_t kParallelPoints = 2048;
 
+/// Sites with others added, or without them; for each its number among the first, or kNewSite.
 template <int Dim>
-std::vector<Site<Dim>> combined(std::span<const Site<Dim>> old, std::span<const Site<Dim>> sites, bool add) {
-  std::vector<Site<Dim>> out;
-  out.reserve(old.size() + (add ? sites.size() : 0));
-  if (add) {
-    std::merge(old.begin(), old.end(), sites.begin(), sites.end(), std::back_inserter(out), morton_less<Dim>);
-  } else {
-    std::set_difference(old.begin(), old.end(), sites.begin(), sites.end(), std::back_inserter(out), morton_less<Dim>);
+struct Combined {
+  std::vector<Site<Dim>> sites;
+  std::vector<std::uint32_t> numbers;
+
+  Combined(std::span<const Site<Dim>> old, std::span<const Site<Dim>> others, bool add) {
+    sites.reserve(old.size() + (add ? others.size() : 0));
+    numbers.reserve(sites.capacity());
+    std::size_t j = 0;
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      for (; j < others.size() && morton_less<Dim>(others[j], old[i]); ++j)
+        if (add) append(others[j], kNewSite);
+      if (!add && j < others.size() && others[j] == old[i]) {
+        ++j;  // One for one.
+      } else {
+        append(old[i], static_cast<std::uint32_t>(i));
+      }
+    }
+    for (; add && j < others.size(); ++j) append(others[j], kNewSite);
   }
-  return out;
+  void append(const Site<Dim>& site, std::uint32_t number) {
+    sites.push_back(site);
+    numbers.push_back(number);
+  }
+};
+
+template <int Dim>
+std::unique_ptr<Moments<Dim>> moments_if_large(GatheredSites<Dim>& sites, const Cell<Dim>& cell) {
+  return sites.size() < kProofPoints ? nullptr : std::make_unique<Moments<Dim>>(moments<Dim>(sites.all(), cell.low, cell.bits));
+}
+
+/// Of the loose sites.
+template <int Dim>
+void drop_duplicates(LeafNode<Dim>& leaf) {
+  auto& loose = leaf.fit.loose;
+  const auto same = [&](std::uint32_t a, std::uint32_t b) { return leaf.sites[a] == leaf.sites[b]; };
+  loose.erase(std::unique(loose.begin(), loose.end(), same), loose.end());
 }
 
 }  // namespace
@@ -53,6 +81,7 @@ template <int Dim>
 Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action) {
   if (!node.inner) return update_leaf(node, cell, sites, action);
   InnerNode<Dim>& inner = *node.inner;
+  inner.sharp = false;
   const auto parts = cell.split(sites);
   std::array<Change<Dim>, Cell<Dim>::kChildren> changes;
   parallel_for(Cell<Dim>::kChildren, sites.size() >= kParallelPoints ? 1 : Cell<Dim>::kChildren, [&](std::size_t c) {
@@ -62,13 +91,6 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
   for (const Change<Dim>& part : changes) change.add(part);
   ++change.nodes_touched;
   sum_up(inner, cell);
-  if (action == Action::insert) {
-    inner.moments.add(moments<Dim>(sites, cell.low, cell.bits));
-  } else {
-    inner.moments = {};
-    for (int c = 0; c < Cell<Dim>::kChildren; ++c) inner.moments.add(moments_of(inner.children[c], cell.child(c)));
-  }
-
   if (inner.proof) {
     const bool stands = action == Action::insert ? inner.proof->survives_adding(sites, cell) : inner.proof->survives_removing(sites);
     if (stands && inner.totals.points >= rules_.min_points) return change;
@@ -76,9 +98,17 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
   }
   GatheredSites<Dim> all{SiteView<Dim>(node)};
   inner.proof = prove(all.view(), cell);
-  if (inner.proof) return change;
+  if (inner.proof) {
+    inner.moments.reset();
+    return change;
+  }
+  if (inner.moments && action == Action::insert) {
+    inner.moments->add(moments<Dim>(sites, cell.low, cell.bits));
+  } else {
+    inner.moments = moments_if_large(all, cell);
+  }
   Node<Dim> whole;
-  if (set_leaf(whole, cell, all, inner.moments)) {  // Prune.
+  if (set_leaf(whole, cell, all, inner.moments.get())) {  // Prune.
     change.changed.extend(bounds(node));
     change.changed.extend(bounds(whole));
     node = std::move(whole);
@@ -90,12 +120,23 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
 template <int Dim>
 Change<Dim> Tree<Dim>::update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action) {
   const std::span<const Site<Dim>> old = node.leaf ? std::span<const Site<Dim>>(node.leaf->sites) : std::span<const Site<Dim>>();
-  const std::vector<Site<Dim>> all = combined<Dim>(old, sites, action == Action::insert);
-  if (all.size() == old.size()) return {};
-  const Box<Dim> before = bounds(node);
+  Combined<Dim> all(old, sites, action == Action::insert);
+  if (all.sites.size() == old.size()) return {};
+  Change<Dim> change;
+  change.changed = bounds(node);
+  if (node.leaf && action == Action::insert && all.sites.size() <= kFewSites && !rules_.paper) {
+    LeafNode<Dim>& leaf = *node.leaf;
+    leaf.fit = refit_few<Dim>(all.sites, all.numbers, leaf.fit, cell, rules_);
+    leaf.sites = std::move(all.sites);
+    leaf.sharp = false;
+    drop_duplicates(leaf);
+    change.changed.extend(bounds(node));
+    change.nodes_touched = 1;
+    change.points_read = static_cast<std::int64_t>(leaf.sites.size());
+    return change;
+  }
   node = {};
-  Change<Dim> change = build(node, cell, all);
-  change.changed.extend(before);
+  change.add(build(node, cell, all.sites));
   return change;
 }
 
@@ -106,15 +147,16 @@ Change<Dim> Tree<Dim>::build(Node<Dim>& node, const Cell<Dim>& cell, std::span<c
   Change<Dim> change;
   change.nodes_touched = 1;
   change.points_read = static_cast<std::int64_t>(sites.size());
-  const Moments<Dim> sums = moments<Dim>(sites, cell.low, cell.bits);
   GatheredSites<Dim> all{SiteView<Dim>(sites)};
-  if (set_leaf(node, cell, all, sums)) {
+  std::unique_ptr<Proof<Dim>> proof = prove(all.view(), cell);
+  std::unique_ptr<Moments<Dim>> sums = proof ? nullptr : moments_if_large(all, cell);
+  if (!proof && set_leaf(node, cell, all, sums.get())) {
     change.changed = bounds(node);
     return change;
   }
   node.inner = std::make_unique<InnerNode<Dim>>();
-  node.inner->moments = sums;
-  node.inner->proof = prove(all.view(), cell);
+  node.inner->proof = std::move(proof);
+  node.inner->moments = std::move(sums);
   const auto parts = cell.split(sites);
   std::array<Change<Dim>, Cell<Dim>::kChildren> changes;
   parallel_for(Cell<Dim>::kChildren, sites.size() >= kParallelPoints ? 1 : Cell<Dim>::kChildren,
@@ -124,32 +166,53 @@ Change<Dim> Tree<Dim>::build(Node<Dim>& node, const Cell<Dim>& cell, std::span<c
   return change;
 }
 
+template <int Dim>
+std::optional<CellFit<Dim>> Tree<Dim>::fit(GatheredSites<Dim>& sites, const Moments<Dim>* sums, const Cell<Dim>& cell,
+                                           const FitRules<Dim>& rules) const {
+  if (rules.paper && static_cast<std::int64_t>(sites.size()) < rules.min_points) return CellFit<Dim>{};
+  auto fit = fit_cell<Dim>(sites, sums, cell, rules);
+  if (!fit && cell.depth() >= max_depth_) fit = fit_at_limit<Dim>(sites.all(), cell, rules);
+  return fit;
+}
+
 /// False: the cell must be split.
 template <int Dim>
-bool Tree<Dim>::set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>& sums) const {
-  CellFit<Dim> fit;
-  const bool few = static_cast<std::int64_t>(sites.size()) < rules_.min_points;
-  if (few) {
-    for (std::uint32_t i = 0; i < sites.size() && !rules_.paper; ++i) fit.loose.push_back(i);
-  } else if (auto whole = fit_cell<Dim>(sites, sums, cell, rules_)) {
-    fit = std::move(*whole);
-  } else if (cell.depth() >= max_depth_) {
-    fit = fit_at_limit<Dim>(sites.all(), cell, rules_);
-  } else {
-    return false;
-  }
+bool Tree<Dim>::set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>* sums) const {
+  auto whole = fit(sites, sums, cell, rules_);
+  if (!whole) return false;
   const std::span<const Site<Dim>> all = sites.all();
-  const auto same = [&](std::uint32_t a, std::uint32_t b) { return all[a] == all[b]; };
-  fit.loose.erase(std::unique(fit.loose.begin(), fit.loose.end(), same), fit.loose.end());
-  if (!all.empty())
-    node.leaf = std::make_unique<LeafNode<Dim>>(LeafNode<Dim>{{all.begin(), all.end()}, std::move(fit.patches), std::move(fit.loose)});
+  if (all.empty()) return true;
+  node.leaf = std::make_unique<LeafNode<Dim>>(LeafNode<Dim>{{all.begin(), all.end()}, std::move(*whole)});
+  drop_duplicates(*node.leaf);
   return true;
 }
 
 template <int Dim>
+void Tree<Dim>::sharpen() {
+  sharpen(root_, {});
+}
+
+template <int Dim>
+void Tree<Dim>::sharpen(Node<Dim>& node, const Cell<Dim>& cell) {
+  if (node.inner && !node.inner->sharp) {
+    InnerNode<Dim>& inner = *node.inner;
+    parallel_for(Cell<Dim>::kChildren, inner.totals.points >= static_cast<std::int64_t>(kParallelPoints) ? 1 : Cell<Dim>::kChildren,
+                 [&](std::size_t c) { sharpen(inner.children[c], cell.child(static_cast<int>(c))); });
+    sum_up(inner, cell);
+    inner.sharp = true;
+  }
+  if (!node.leaf || node.leaf->sharp || node.leaf->fit.patches.empty()) return;
+  FitRules<Dim> rules = rules_;
+  rules.sharp = true;
+  GatheredSites<Dim> sites{SiteView<Dim>(node.leaf->sites)};
+  node.leaf->fit.patches = std::move(fit(sites, nullptr, cell, rules)->patches);
+  node.leaf->sharp = true;
+}
+
+template <int Dim>
 std::unique_ptr<Proof<Dim>> Tree<Dim>::prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const {
-  if (sites.size() < kProofPoints || static_cast<std::int64_t>(sites.size()) < rules_.min_points) return nullptr;
-  return Proof<Dim>::find(sites, cell, eta_ / rules_.snap.step());
+  if (sites.size() < kProofPoints || cell.depth() >= max_depth_ || static_cast<std::int64_t>(sites.size()) < rules_.min_points) return nullptr;
+  return Proof<Dim>::find(sites, cell, eta_ / rules_.snap.step(), rules_.paper ? 2 : 1);
 }
 
 /// Of all patches below a node [m].
@@ -159,8 +222,8 @@ Box<Dim> Tree<Dim>::bounds(const Node<Dim>& node) const {
   if (node.inner)
     for (const Node<Dim>& child : node.inner->children) box.extend(bounds(child));
   if (node.leaf) {
-    for (const Patch<Dim>& patch : node.leaf->patches) box.extend(patch.bounds());
-    for (const std::uint32_t i : node.leaf->loose) box.extend(loose_patch<Dim>(node.leaf->sites[i], rules_).vertices[0]);
+    for (const Patch<Dim>& patch : node.leaf->fit.patches) box.extend(patch.bounds());
+    for (const std::uint32_t i : node.leaf->fit.loose) box.extend(loose_patch<Dim>(node.leaf->sites[i], rules_).vertices[0]);
   }
   return box;
 }
@@ -174,21 +237,15 @@ Totals Tree<Dim>::totals(const Node<Dim>& node, const Cell<Dim>& cell) const {
   if (!node.leaf) return totals;
   const LeafNode<Dim>& leaf = *node.leaf;
   totals.points = static_cast<std::int64_t>(leaf.sites.size());
-  totals.loose = static_cast<std::int64_t>(leaf.loose.size());
-  if (totals.loose > 0) totals.data_to_surface = totals.surface_to_data = loose_patch<Dim>(leaf.sites[leaf.loose[0]], rules_).data_to_surface;
-  for (const Patch<Dim>& patch : leaf.patches) {
+  totals.loose = static_cast<std::int64_t>(leaf.fit.loose.size());
+  if (totals.loose > 0) totals.data_to_surface = totals.surface_to_data = loose_patch<Dim>(leaf.sites[leaf.fit.loose[0]], rules_).data_to_surface;
+  for (const Patch<Dim>& patch : leaf.fit.patches) {
     std::int64_t& kind = patch.rank() == Dim - 1 ? totals.fits : patch.rank() == 0 ? totals.loose : totals.segments;
     ++kind;
     totals.data_to_surface = std::max(totals.data_to_surface, patch.data_to_surface);
     totals.surface_to_data = std::max(totals.surface_to_data, patch.surface_to_data);
   }
   return totals;
-}
-
-template <int Dim>
-Moments<Dim> Tree<Dim>::moments_of(const Node<Dim>& node, const Cell<Dim>& cell) const {
-  if (node.inner) return node.inner->moments;
-  return node.leaf ? moments<Dim>(node.leaf->sites, cell.low, cell.bits) : Moments<Dim>{};
 }
 
 template <int Dim>

@@ -33,6 +33,9 @@ class Tree {
   Change<Dim> insert(std::span<const Site<Dim>> sites);
   Change<Dim> remove(std::span<const Site<Dim>> sites);
 
+  /// Makes all bounds at most 10 % larger than the truth: those of updates only are within eta. Cost follows what was updated since the last time.
+  void sharpen();
+
   [[nodiscard]] Totals totals() const { return totals(root_, Cell<Dim>{}); }
   [[nodiscard]] const Node<Dim>& root() const { return root_; }
   [[nodiscard]] const FitRules<Dim>& rules() const { return rules_; }
@@ -49,11 +52,13 @@ class Tree {
   Change<Dim> update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
   Change<Dim> build(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites);
 
-  bool set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>& moments) const;
+  bool set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>* moments) const;
+  /// nullopt: the cell must be split.
+  std::optional<CellFit<Dim>> fit(GatheredSites<Dim>& sites, const Moments<Dim>* moments, const Cell<Dim>& cell, const FitRules<Dim>& rules) const;
+  void sharpen(Node<Dim>& node, const Cell<Dim>& cell);
   std::unique_ptr<Proof<Dim>> prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const;
   Box<Dim> bounds(const Node<Dim>& node) const;
   Totals totals(const Node<Dim>& node, const Cell<Dim>& cell) const;
-  Moments<Dim> moments_of(const Node<Dim>& node, const Cell<Dim>& cell) const;
   void sum_up(InnerNode<Dim>& inner, const Cell<Dim>& cell) const;
 };
 
