@@ -8,9 +8,9 @@
 
 namespace vantage {
 
-/// Point on an integer lattice.
+/// Point on an integer lattice, and last a tag: a number that means something to who made it.
 template <int Dim>
-using Site = std::array<std::uint32_t, Dim>;
+using Site = std::array<std::uint32_t, Dim + 1>;
 
 /// Wide enough for sums of squares of 2^31 sites, so that moments do not depend on the order of the points.
 __extension__ using WideInt = __int128;

@@ -28,7 +28,7 @@ TYPED_TEST(PlaneFit, MomentsAreExactAndAdd) {
   constexpr int Dim = TypeParam::value;
   Random random(1);
   for (const int bits : {1, 7, 20, 27, 28, 32}) {
-    Site<Dim> base;
+    Site<Dim> base{};
     base.fill(bits == 32 ? 0U : 0xC0000000U);
     const auto sites = random_sites<Dim>(random, 3000, base, bits);
     Moments<Dim> expected;
@@ -96,7 +96,7 @@ TYPED_TEST(PlaneFit, VariancesAreThoseAlongTheAxes) {
 
 TYPED_TEST(PlaneFit, EqualPointsHaveNoVariance) {
   constexpr int Dim = TypeParam::value;
-  Site<Dim> site;
+  Site<Dim> site{};
   site.fill(0xFFFFFFFFU);
   const std::vector<Site<Dim>> sites(1000, site);
   const auto frame = principal_frame<Dim>(moments<Dim>(sites, Site<Dim>{}, 32), 1.0);

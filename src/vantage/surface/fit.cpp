@@ -22,7 +22,7 @@ class FewSites {
 
   CellFit<Dim> fit() {
     Parts parts;
-    find_parts<Dim>(sites_, rules_.snap, 2.0 * rules_.limit, parts);
+    find_parts<Dim>(sites_, rules_.snap, reach(sites_), parts);
     for (std::size_t p = 0; p < parts.size(); ++p) carry_whole(parts[p], parts.size() == 1);
     std::sort(fit_.loose.begin(), fit_.loose.end());
     return std::move(fit_);
@@ -30,7 +30,7 @@ class FewSites {
 
   CellFit<Dim> refit(std::span<const std::uint32_t> numbers, const CellFit<Dim>& before) {
     Parts parts;
-    find_parts<Dim>(sites_, rules_.snap, 2.0 * rules_.limit, parts);
+    find_parts<Dim>(sites_, rules_.snap, reach(sites_), parts);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const auto part = parts[p];
       const bool known =
@@ -48,6 +48,11 @@ class FewSites {
   CellFit<Dim> fit_;
   std::vector<Site<Dim>> gathered_;
 
+  /// Sites farther apart have no patch together.
+  [[nodiscard]] double reach(std::span<const Site<Dim>> sites) const {
+    if (rules_.spacing == nullptr || sites.empty()) return 2.0 * rules_.limit;
+    return 2.0 * std::max(rules_.limit, rules_.spacing->at_most(sites, rules_.snap.local(sites[sites.size() / 2])));
+  }
   /// Good until it is asked again.
   [[nodiscard]] std::span<const Site<Dim>> gather(std::span<const std::uint32_t> numbers) {
     gathered_.clear();
@@ -76,14 +81,15 @@ class FewSites {
 
   void split(std::span<const std::uint32_t> numbers) {
     Parts parts;
-    find_parts<Dim>(gather(numbers), rules_.snap, 2.0 * rules_.limit, parts);
+    const std::span<const Site<Dim>> sites = gather(numbers);
+    find_parts<Dim>(sites, rules_.snap, reach(sites), parts);
     for (std::uint32_t& i : parts.order) i = numbers[i];
     for (std::size_t p = 0; p < parts.size(); ++p) carry(parts[p], false);
   }
 
   void carry(std::span<const std::uint32_t> part, bool whole) {
     if (part.size() == 1) return fit_.loose.push_back(part[0]);
-    if (part.size() == 2 && sites_[part[0]] == sites_[part[1]]) return fit_.loose.push_back(part[0]);
+    if (part.size() == 2 && same_place<Dim>(sites_[part[0]], sites_[part[1]])) return fit_.loose.push_back(part[0]);
     if (part.size() == 2) return fit_.patches.push_back(pair_patch<Dim>(sites_[part[0]], sites_[part[1]], rules_.snap));
     const std::span<const Site<Dim>> sites = gather(part);
     if (const auto chord = fit_chord<Dim>(sites, rules_, kThin * rules_.limit)) return fit_.patches.push_back(*chord);
@@ -138,7 +144,8 @@ bool sample_rejects(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Fra
   const std::vector<Site<Dim>> sample = spread_sample<Dim>(sites, cell);
   const auto off_plane = [&](const Site<Dim>& site) { return std::abs(frame.local(rules.snap.local(site))[Dim - 1]) > rules.limit; };
   return std::any_of(sample.begin(), sample.end(), off_plane) ||
-         shows_hole<Dim>(probe_pairs<Dim>(sites, cell), sites, cell, frame, rules.snap, rules.limit);
+         shows_hole<Dim>(probe_pairs<Dim>(sites, cell), sites, cell, frame, rules.snap,
+                         rules.spacing != nullptr ? std::max(rules.limit, rules.spacing->most()) : rules.limit);
 }
 
 }  // namespace

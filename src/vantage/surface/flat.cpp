@@ -82,19 +82,26 @@ struct Errors {
   double data_to_surface, surface_to_data;
 };
 
+struct Limits {
+  double data, surface;
+};
+
 /// Tries regions of one plane or line on its points.
 template <int Rank>
 class Attempts {
  public:
-  Attempts(const Feet<Rank>& points, double limit, bool sharp, bool paper)
-      : points_(points), limit_(limit), most_each_(Rank == 1 ? 2.0 * limit : (paper ? kPi : kSparse) * limit * limit), search_{sharp, nullptr} {}
+  Attempts(const Feet<Rank>& points, Limits limits, bool sharp, bool paper)
+      : points_(points),
+        limits_(limits),
+        most_each_(Rank == 1 ? 2.0 * limits.surface : (paper ? kPi : kSparse) * limits.surface * limits.surface),
+        search_{sharp, nullptr} {}
 
   /// Both one-sided errors, if they are within the limit.
   std::optional<Errors> errors(const ConvexRegion<Rank>& region) {
     if (region.count == 0 || region.measure() > static_cast<double>(points_.size()) * most_each_) return std::nullopt;
     const double data = farthest_point(region, points_);
-    if (data > limit_) return std::nullopt;
-    const Covering<Rank> covering = cover<Rank>(region, points_, limit_, search_);
+    if (data > limits_.data) return std::nullopt;
+    const Covering<Rank> covering = cover<Rank>(region, points_, limits_.surface, search_);
     if (covering.radius) return Errors{data, *covering.radius};
     hole_ = covering.farthest;  // Most likely the next region has it too.
     search_.first = &hole_;
@@ -103,7 +110,7 @@ class Attempts {
 
  private:
   const Feet<Rank>& points_;
-  double limit_;
+  Limits limits_;
   double most_each_;  ///< Length or area for each point: regions with more of it are not tried.
   CoverSearch<Rank> search_;
   typename ConvexRegion<Rank>::Place hole_;
@@ -132,13 +139,22 @@ ConvexRegion<Dim - 1> in_bounding_box(std::span<const Site<Dim>> sites, const Fe
   return clip_to_box(frame, Box<Dim>{snap.local(low), snap.local(high)}.grown(thickness + snap.step()));
 }
 
+/// How far places of a patch of that rank may be from the sites.
+template <int Rank, int Dim>
+double surface_limit(std::span<const Site<Dim>> sites, const Frame<Dim>& frame, const FitRules<Dim>& rules) {
+  if (rules.spacing == nullptr) return rules.limit;
+  const double apart = Rank == Dim - 1 ? rules.spacing->on_plane(sites, frame.origin, frame.axes.col(Dim - 1))
+                                       : rules.spacing->on_line(sites, frame.origin, frame.axes.col(0));
+  return std::max(rules.limit, apart);
+}
+
 template <int Dim, int Rank>
 std::optional<Patch<Dim>> fit_rank(std::span<const Site<Dim>> sites, const Projected<Dim>& points, const Frame<Dim>& frame,
                                    const FitRules<Dim>& rules, const Cell<Dim>* cell) {
   const Feet<Rank>& data = feet<Rank>(points);
   for (const double height2 : data.height2)
     if (height2 > rules.limit * rules.limit) return std::nullopt;
-  Attempts<Rank> attempts(data, rules.limit, rules.sharp, rules.paper);
+  Attempts<Rank> attempts(data, {rules.limit, surface_limit<Rank>(sites, frame, rules)}, rules.sharp, rules.paper);
   const auto attempt = [&](const ConvexRegion<Rank>& region) -> std::optional<Patch<Dim>> {
     if (region.count > Patch<Dim>::kMaxVertices) return std::nullopt;
     const auto errors = attempts.errors(region);
@@ -217,7 +233,9 @@ std::optional<Patch<Dim>> fit_chord(std::span<const Site<Dim>> sites, const FitR
     feet.height2.push_back(height2);
   }
   using Place = ConvexRegion<1>::Place;
-  const Covering<1> covering = cover<1>(ConvexRegion<1>::box(Place(0.0), Place(length)), feet, rules.limit, {rules.sharp, nullptr});
+  const double apart = rules.spacing != nullptr ? rules.spacing->on_line(sites, from + 0.5 * way, along) : 0.0;
+  const double limit = std::max(rules.limit, apart);
+  const Covering<1> covering = cover<1>(ConvexRegion<1>::box(Place(0.0), Place(length)), feet, limit, {rules.sharp, nullptr});
   if (!covering.radius) return std::nullopt;
   Patch<Dim> patch = segment_patch<Dim>(rules.snap.world(from), rules.snap.world(from + way));
   patch.data_to_surface = rounded_up(std::sqrt(data2) + rules.snap.slack());
@@ -232,7 +250,7 @@ Patch<Dim> force_plane(std::span<const Site<Dim>> sites, const Frame<Dim>& frame
   const Feet<Dim - 1>& data = feet<Dim - 1>(points);
   auto region = in_bounding_box<Dim>(sites, data, frame, rules.snap);
   if (region.count == 0 || region.count > Patch<Dim>::kMaxVertices) region = outline(data);
-  return make_patch(region, *Attempts<Dim - 1>(data, kInfinity, true, true).errors(region), frame, rules.snap);
+  return make_patch(region, *Attempts<Dim - 1>(data, {kInfinity, kInfinity}, true, true).errors(region), frame, rules.snap);
 }
 
 template <int Dim>

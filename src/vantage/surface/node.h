@@ -18,7 +18,7 @@ struct InnerNode;
 
 /// Sums over a subtree, by the names of SurfaceStatistics.
 struct Totals {
-  std::int64_t points = 0, nodes = 0, leaves = 0, fits = 0, segments = 0, loose = 0;
+  std::int64_t points = 0, sites = 0, nodes = 0, leaves = 0, fits = 0, segments = 0, loose = 0, beyond_eta = 0;
   int depth = 0;
   float data_to_surface = 0.0F, surface_to_data = 0.0F;
 
@@ -28,7 +28,8 @@ struct Totals {
 template <int Dim>
 struct LeafNode {
   std::vector<Site<Dim>> sites;  ///< In Morton order.
-  CellFit<Dim> fit;              ///< Of its loose sites, duplicates are there once.
+  CellFit<Dim> fit;              ///< Of its loose sites, those in one place are there once.
+  std::int64_t points = 0;       ///< That the sites stand for.
   bool sharp = false;            ///< Its bounds are.
 };
 

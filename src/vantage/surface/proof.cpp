@@ -62,12 +62,12 @@ class GapSearch {
 
 template <int Dim>
   requires SpatialDim<Dim>
-std::unique_ptr<Proof<Dim>> Proof<Dim>::find(const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance, int patches) {
+std::unique_ptr<Proof<Dim>> Proof<Dim>::find(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Question& question) {
   const auto sample = spread_sample<Dim>(sites, cell);
   Proof proof;
-  proof.radius_ = 2.0 * tolerance;
-  const bool islands = patches == 1 ? proof.find_two_islands(sample, sites, cell) : proof.find_three_islands(sample, sites, cell);
-  if (islands || proof.find_general(sample, tolerance, patches)) return std::make_unique<Proof>(proof);
+  proof.radius_ = question.data + question.surface;
+  const bool islands = question.patches == 1 ? proof.find_two_islands(sample, sites, cell) : proof.find_three_islands(sample, sites, cell);
+  if (islands || proof.find_general(sample, question.data, question.patches)) return std::make_unique<Proof>(proof);
   return nullptr;
 }
 

@@ -18,8 +18,12 @@ template <int Dim>
   requires SpatialDim<Dim>
 class Proof {
  public:
-  /// Looks for one in a sample of the sites of `cell`, against 1 or 2 patches. May miss one that exists. nullptr: none found.
-  [[nodiscard]] static std::unique_ptr<Proof> find(const SiteView<Dim>& sites, const Cell<Dim>& cell, double tolerance, int patches);
+  struct Question {
+    double data, surface;  ///< Tolerances of data to surface, and of surface to data.
+    int patches = 1;       ///< Or 2.
+  };
+  /// Looks for one in a sample of the sites of `cell`. May miss one that exists. nullptr: none found.
+  [[nodiscard]] static std::unique_ptr<Proof> find(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Question& question);
 
   /// Does it stand when these (in Morton order) are added, or taken out?
   [[nodiscard]] bool survives_adding(std::span<const Site<Dim>> sites, const Cell<Dim>& cell) const;

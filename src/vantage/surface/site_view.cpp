@@ -42,7 +42,7 @@ SiteView<Dim>::SiteView(const Node<Dim>& node) : inner_(node.inner.get()) {
 
 template <int Dim>
 std::size_t SiteView<Dim>::size() const {
-  return inner_ != nullptr ? static_cast<std::size_t>(inner_->totals.points) : sites_.size();
+  return inner_ != nullptr ? static_cast<std::size_t>(inner_->totals.sites) : sites_.size();
 }
 
 template <int Dim>

@@ -33,23 +33,26 @@ const std::array<std::uint64_t, 256>& spread_bytes() {
 
 template <int Dim>
   requires SpatialDim<Dim>
-Snap<Dim>::Snap(const Box<Dim>& domain) {
+Snap<Dim>::Snap(const Box<Dim>& domain, double quantum) {
   require(!domain.empty() && domain.low.allFinite() && domain.high.allFinite(), "domain of interest: the box is empty or not finite");
   const double side = domain.size().maxCoeff();
   require(side > 0.0, "domain of interest: the box has no extent");
   const Vec<Dim> half = Vec<Dim>::Constant(0.5 * side);
   cube_ = {domain.center() - half, domain.center() + half};
   step_ = side / kSteps;
+  quantum_ = static_cast<std::uint32_t>(std::clamp(std::floor(quantum / step_), 1.0, kSteps / 4.0));
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
 std::optional<Site<Dim>> Snap<Dim>::site(const Vec<Dim>& p) const {
-  Site<Dim> site;
+  Site<Dim> site{};
+  site[Dim] = 1;
   for (int a = 0; a < Dim; ++a) {
     if (p[a] < cube_.low[a] || p[a] > cube_.high[a]) return std::nullopt;
     const double x = std::floor((p[a] - cube_.low[a]) / step_ + 0.5);
     site[a] = static_cast<std::uint32_t>(std::clamp(x, 0.0, kSteps - 1.0));
+    if (quantum_ > 1) site[a] = std::min(site[a] / quantum_ * quantum_ + quantum_ / 2, ~std::uint32_t{0});
   }
   return site;
 }
@@ -67,7 +70,8 @@ template <int Dim>
 double Snap<Dim>::slack() const {
   // One step a coordinate (half inside, a whole one on the high faces), and a few roundings of world coordinates and of fits.
   const double largest = std::max(cube_.low.cwiseAbs().maxCoeff(), cube_.high.cwiseAbs().maxCoeff());
-  return std::sqrt(static_cast<double>(Dim)) * (step_ + 16.0 * 0x1p-52 * largest + 1e-12 * kSteps * step_);
+  const double cell = quantum_ > 1 ? 0.5 * (static_cast<double>(quantum_) + 1.0) * step_ : 0.0;
+  return std::sqrt(static_cast<double>(Dim)) * (cell + step_ + 16.0 * 0x1p-52 * largest + 1e-12 * kSteps * step_);
 }
 
 template <int Dim>
@@ -94,6 +98,15 @@ void sort_sites(std::vector<Site<Dim>>& sites) {
     if (end - begin > 1)
       std::sort(sites.begin() + static_cast<std::ptrdiff_t>(begin), sites.begin() + static_cast<std::ptrdiff_t>(end), morton_less<Dim>);
   }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (kept > 0 && same_site<Dim>(sites[kept - 1], sites[i])) {
+      add_count(sites[kept - 1], count_of(sites[i]));
+    } else {
+      sites[kept++] = sites[i];
+    }
+  }
+  sites.resize(kept);
 }
 
 template <int Dim>

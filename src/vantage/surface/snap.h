@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,8 +10,20 @@
 
 namespace vantage {
 
-/// Order along the Morton curve: total, and every dyadic cell is an interval of it. Bit `a` of a cell's number among its siblings is its side in axis
-/// a.
+/// The tag of a site: how many points it stands for, and the number of the scan they are from.
+inline constexpr int kCountBits = 20;
+inline constexpr std::uint32_t kMostCount = (1U << kCountBits) - 1U, kMostScans = 1U << (32 - kCountBits);
+template <class AnySite>
+[[nodiscard]] std::uint32_t count_of(const AnySite& site) {
+  return site.back() & kMostCount;
+}
+template <class AnySite>
+[[nodiscard]] std::uint32_t scan_of(const AnySite& site) {
+  return site.back() >> kCountBits;
+}
+
+/// Order along the Morton curve: total (sites in one place by their scans), and every dyadic cell is an interval of it. Bit `a` of a cell's number
+/// among its siblings is its side in axis a.
 template <int Dim>
 [[nodiscard]] inline bool morton_less(const Site<Dim>& a, const Site<Dim>& b) {
   int axis = Dim - 1;
@@ -22,7 +35,21 @@ template <int Dim>
       axis = k;
     }
   }
-  return a[axis] < b[axis];
+  return a[axis] != b[axis] ? a[axis] < b[axis] : scan_of(a) < scan_of(b);
+}
+
+template <int Dim>
+[[nodiscard]] bool same_place(const Site<Dim>& a, const Site<Dim>& b) {
+  return std::equal(a.begin(), a.begin() + Dim, b.begin());
+}
+/// In one place and from one scan: such sites are one, and their counts add up (to kMostCount; there they stay).
+template <int Dim>
+[[nodiscard]] bool same_site(const Site<Dim>& a, const Site<Dim>& b) {
+  return same_place<Dim>(a, b) && scan_of(a) == scan_of(b);
+}
+template <class AnySite>
+void add_count(AnySite& site, std::uint32_t count) {
+  site.back() += std::min(count, kMostCount - count_of(site));
 }
 
 /// The lattice of 2^32 steps a side over a cube, on which everything that must not depend on the order of the points is decided.
@@ -30,10 +57,10 @@ template <int Dim>
   requires SpatialDim<Dim>
 class Snap {
  public:
-  /// Over the smallest cube that shares `domain`'s centre and covers it.
-  explicit Snap(const Box<Dim>& domain);
+  /// Over the smallest cube that shares `domain`'s centre and covers it. With a `quantum` [m], sites are the centres of cells of that side.
+  explicit Snap(const Box<Dim>& domain, double quantum = 0.0);
 
-  /// Nearest site; nullopt outside the cube. `p` is finite.
+  /// Nearest site, of one point and scan 0; nullopt outside the cube. `p` is finite.
   [[nodiscard]] std::optional<Site<Dim>> site(const Vec<Dim>& p) const;
   /// Where a site lies, from the cube's low corner [m].
   [[nodiscard]] Vec<Dim> local(const Site<Dim>& site) const;
@@ -46,6 +73,7 @@ class Snap {
  private:
   Box<Dim> cube_;
   double step_ = 0.0;
+  std::uint32_t quantum_ = 1;  ///< Steps.
 };
 
 /// A site's coordinates in steps.
@@ -56,7 +84,7 @@ template <int Dim>
   return p;
 }
 
-/// Along the Morton curve.
+/// Along the Morton curve, and makes one of those that are the same.
 template <int Dim>
 void sort_sites(std::vector<Site<Dim>>& sites);
 

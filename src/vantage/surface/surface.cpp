@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/surface/surface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "vantage/base/error.h"
 #include "vantage/surface/nearest.h"
+#include "vantage/surface/spacing.h"
 #include "vantage/surface/tree.h"
 
 namespace vantage {
@@ -14,12 +17,16 @@ namespace {
 constexpr double kFloatMargin = 1e-6;
 
 template <int Dim>
-FitRules<Dim> make_rules(const Box<Dim>& domain, const SurfaceOptions& options) {
+FitRules<Dim> make_rules(const Box<Dim>& domain, const SurfaceOptions& options, const SensorSpacing<Dim>& spacing) {
   check_options(options, "surface");
-  FitRules<Dim> rules{Snap<Dim>(domain), 0.0, options.min_points > 0 ? options.min_points : Dim + 2, options.paper};
+  require(options.quantise < options.eta, fmt::format("surface.quantise = {}: must be below surface.eta = {} [m]", options.quantise, options.eta));
+  require(options.quantise == 0.0 || options.spacing == SurfaceOptions::Spacing::fixed, "surface.quantise: not together with surface.spacing = sensor");
+  require(!options.paper || options.spacing == SurfaceOptions::Spacing::fixed, "surface.paper: not together with surface.spacing = sensor");
+  FitRules<Dim> rules{Snap<Dim>(domain, options.quantise), 0.0, options.min_points > 0 ? options.min_points : Dim + 2, options.paper};
   rules.limit = options.eta * (1.0 - kFloatMargin) - rules.snap.slack();
-  require(rules.limit > 16.0 * rules.snap.slack(), "surface.eta = " + std::to_string(options.eta) + ": too fine for a domain this large; must be > " +
-                                                       std::to_string(20.0 * rules.snap.slack()) + " [m]");
+  const double rounding = Snap<Dim>(domain).slack();
+  require(rules.limit > 16.0 * rounding, fmt::format("surface.eta = {:g}: too fine for a domain this large; must be > {:g} [m]", options.eta, 20.0 * rounding));
+  if (options.spacing == SurfaceOptions::Spacing::sensor) rules.spacing = &spacing;
   return rules;
 }
 
@@ -29,6 +36,11 @@ void describe(SurfaceOptions& options, const OptionVisitor& visit) {
   visit("eta", options.eta, "m", {1e-6, 1e3}, "Hausdorff tolerance of a fit");
   visit("min_points", options.min_points, "points", {0, 1e6}, "fewest points in a fitted cell; 0 means dimension + 2, the paper's five in 3D");
   visit("max_depth", options.max_depth, "levels", {0, 24}, "deepest cell; the root has depth 0");
+  visit("spacing", options.spacing, {"fixed", "sensor"},
+        "how far a place of a patch may be from the points: eta, or as far as the rays of its scans are apart, if that is more");
+  visit("spacing_factor", options.spacing_factor, "", {0.1, 10.0}, "spacing = sensor: times range * step / cos(incidence)");
+  visit("spacing_most", options.spacing_most, "m", {0.0, 100.0}, "spacing = sensor: never farther than this");
+  visit("quantise", options.quantise, "m", {0.0, 1e3}, "points count as the centre of their cell of this side, which bounds the memory; 0: as themselves");
   visit("paper", options.paper, "the paper's own behaviour: small cells dropped, best fit kept at the depth limit");
 }
 
@@ -36,14 +48,22 @@ template <int Dim>
   requires SpatialDim<Dim>
 struct HausdorffTree<Dim>::Impl {
   SurfaceOptions options;
+  SensorSpacing<Dim> spacing;
   Tree<Dim> tree;
   std::int64_t outside = 0, not_finite = 0;
 
   Impl(const Box<Dim>& domain, const SurfaceOptions& given)
-      : options(given), tree(make_rules(domain, given), given.eta, static_cast<int>(given.max_depth)) {}
+      : options(given),
+        spacing(given.spacing_factor, given.spacing_most),
+        tree(make_rules(domain, given, spacing), given.eta, static_cast<int>(given.max_depth)) {}
 
   /// Sorted sites of the points inside; counts the others `sign` times.
-  std::vector<Site<Dim>> snapped(std::span<const Vec<Dim>> points, int sign) {
+  std::vector<Site<Dim>> snapped(std::span<const Vec<Dim>> points, const std::optional<SurfaceSensor<Dim>>& sensor, int sign) {
+    std::uint32_t scan = 0;
+    if (options.spacing == SurfaceOptions::Spacing::sensor) {
+      require(sensor.has_value(), "surface.spacing = sensor: a scan needs its position and the angle between its rays");
+      scan = spacing.number({sensor->position - tree.rules().snap.cube().low, sensor->step});
+    }
     std::vector<Site<Dim>> sites;
     sites.reserve(points.size());
     std::int64_t infinite = 0, beyond = 0;
@@ -52,6 +72,7 @@ struct HausdorffTree<Dim>::Impl {
         ++infinite;
       } else if (const auto site = tree.rules().snap.site(p)) {
         sites.push_back(*site);
+        sites.back()[Dim] += scan << kCountBits;
       } else {
         ++beyond;
       }
@@ -73,7 +94,10 @@ struct HausdorffTree<Dim>::Impl {
     const auto take = [&](const Patch<Dim>& patch) {
       if (box != nullptr && patch.bounds().intersection(*box).empty()) return;
       out.push_back(patch);
-      if (box != nullptr && !options.paper) out.back().data_to_surface = out.back().surface_to_data = static_cast<float>(options.eta);
+      if (box != nullptr && !options.paper) {
+        out.back().data_to_surface = static_cast<float>(options.eta);
+        out.back().surface_to_data = static_cast<float>(overhang(cell));
+      }
     };
     if (node.inner)
       for (int c = 0; c < Cell<Dim>::kChildren; ++c) collect(node.inner->children[c], cell.child(c), box, out);
@@ -85,7 +109,8 @@ struct HausdorffTree<Dim>::Impl {
 
   /// How far patches may stick out of their cell: no place of theirs is farther than the limit from its data, or in paper mode than the cell is wide.
   [[nodiscard]] double overhang(const Cell<Dim>& cell) const {
-    return options.paper ? cell.box(tree.rules().snap.step()).size().norm() : options.eta;
+    if (options.paper) return cell.box(tree.rules().snap.step()).size().norm();
+    return options.spacing == SurfaceOptions::Spacing::sensor ? std::max(options.eta, options.spacing_most) : options.eta;
   }
 };
 
@@ -104,15 +129,17 @@ HausdorffTree<Dim>& HausdorffTree<Dim>::operator=(HausdorffTree&&) noexcept = de
 
 template <int Dim>
   requires SpatialDim<Dim>
-SurfaceUpdate<Dim> HausdorffTree<Dim>::insert(std::span<const Vec<Dim>> points) {
-  const auto sites = impl_->snapped(points, 1);
-  return {static_cast<std::int64_t>(sites.size()), impl_->tree.insert(sites).changed};
+SurfaceUpdate<Dim> HausdorffTree<Dim>::insert(std::span<const Vec<Dim>> points, const std::optional<SurfaceSensor<Dim>>& sensor) {
+  const auto sites = impl_->snapped(points, sensor, 1);
+  const std::int64_t before = impl_->tree.totals().points;
+  const Box<Dim> changed = impl_->tree.insert(sites).changed;
+  return {impl_->tree.totals().points - before, changed};
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
-SurfaceUpdate<Dim> HausdorffTree<Dim>::remove(std::span<const Vec<Dim>> points) {
-  const auto sites = impl_->snapped(points, -1);
+SurfaceUpdate<Dim> HausdorffTree<Dim>::remove(std::span<const Vec<Dim>> points, const std::optional<SurfaceSensor<Dim>>& sensor) {
+  const auto sites = impl_->snapped(points, sensor, -1);
   const std::int64_t before = impl_->tree.totals().points;
   const Box<Dim> changed = impl_->tree.remove(sites).changed;
   return {before - impl_->tree.totals().points, changed};
@@ -153,6 +180,8 @@ SurfaceStatistics HausdorffTree<Dim>::statistics() const {
   out.segments = totals.segments;
   out.loose_points = totals.loose;
   out.eta = impl_->options.eta;
+  out.quantise = impl_->options.quantise;
+  out.beyond_eta = totals.beyond_eta;
   out.data_to_surface = totals.data_to_surface;
   out.surface_to_data = totals.surface_to_data;
   if (impl_->options.paper) out.data_to_surface = farthest_site(impl_->tree);

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct SurfaceOptions {
   std::int64_t min_points = 0;  ///< Fewest points in a fitted cell; 0 means Dim + 2, the paper's five in 3D.
   std::int64_t max_depth = 14;  ///< Deepest cell; the root has depth 0.
   bool paper = false;           ///< The paper's own behaviour: small cells dropped, best fit kept at the depth limit.
+  /// How far a place of a patch may be from the points: eta, or (ours) as far as the rays of the scans are apart there, if that is more.
+  enum class Spacing { fixed, sensor } spacing = Spacing::fixed;
+  double spacing_factor = 1.0;  ///< Times range * step / cos(incidence).
+  double spacing_most = 1.0;    ///< Never farther than this [m].
+  double quantise = 0.0;        ///< Points count as the centre of their cell of this side [m]; 0: as themselves. Bounds the memory by the surface.
 };
 
 void describe(SurfaceOptions& options, const OptionVisitor& visit);
@@ -31,9 +37,18 @@ struct SurfaceStatistics {
   std::int64_t segments = 0;      ///< Rank-1 fits in 3D.
   std::int64_t loose_points = 0;  ///< Measured points kept as themselves, or one of several within eta of it.
   double eta = 0.0;               ///< [m]
+  double quantise = 0.0;          ///< [m]
+  std::int64_t beyond_eta = 0;    ///< Patches with places farther than eta from the points, as `spacing = sensor` allows.
   double data_to_surface = 0.0;   ///< Certified upper bound, all points [m].
   double surface_to_data = 0.0;   ///< Certified upper bound, all patches [m].
   [[nodiscard]] double certified() const { return data_to_surface > surface_to_data ? data_to_surface : surface_to_data; }
+};
+
+/// Where a scan was taken, and the angle between its rays.
+template <int Dim>
+struct SurfaceSensor {
+  Vec<Dim> position;  ///< [m]
+  double step = 0.0;  ///< [rad]
 };
 
 /// What an insertion changed.
@@ -55,10 +70,11 @@ class HausdorffTree {
   HausdorffTree(HausdorffTree&&) noexcept;
   HausdorffTree& operator=(HausdorffTree&&) noexcept;
 
-  /// Adds measured points, (N, Dim) [m] (Sec. IV-A with its slips mended). Cost follows the touched cells.
-  SurfaceUpdate<Dim> insert(std::span<const Vec<Dim>> points);
-  /// Takes points out again, as if they had never been added. Points that are not there are ignored.
-  SurfaceUpdate<Dim> remove(std::span<const Vec<Dim>> points);
+  /// Adds measured points, (N, Dim) [m] (Sec. IV-A with its slips mended). Cost follows the touched cells. With `spacing = sensor` the points are
+  /// one scan's, and `sensor` must be given (bad_input); else it is not looked at.
+  SurfaceUpdate<Dim> insert(std::span<const Vec<Dim>> points, const std::optional<SurfaceSensor<Dim>>& sensor = std::nullopt);
+  /// Takes points out again, as if they had never been added. Points that are not there (with `spacing = sensor`: from that scan) are ignored.
+  SurfaceUpdate<Dim> remove(std::span<const Vec<Dim>> points, const std::optional<SurfaceSensor<Dim>>& sensor = std::nullopt);
 
   /// All patches in the order of the cells (Morton), with bounds at most 10 % above the truth. These are worked out when asked for, here and
   /// by statistics(), for what has changed since: not from two threads at once.

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kProofPoints = 256;
 constexpr std::size_t kParallelPoints = 2048;
 
-/// Sites with others added, or without them; for each its number among the first, or kNewSite.
+/// Sites with others added, or without them; for each its number among the first, or kNewSite. A site with another count is the same.
 template <int Dim>
 struct Combined {
   std::vector<Site<Dim>> sites;
@@ -25,13 +25,21 @@ struct Combined {
     for (std::size_t i = 0; i < old.size(); ++i) {
       for (; j < others.size() && morton_less<Dim>(others[j], old[i]); ++j)
         if (add) append(others[j], kNewSite);
-      if (!add && j < others.size() && others[j] == old[i]) {
-        ++j;  // One for one.
-      } else {
-        append(old[i], static_cast<std::uint32_t>(i));
-      }
+      append(old[i], static_cast<std::uint32_t>(i));
+      if (j < others.size() && same_site<Dim>(others[j], old[i])) change_count(count_of(others[j++]), add);
     }
     for (; add && j < others.size(); ++j) append(others[j], kNewSite);
+  }
+  /// Of the last site, which goes with its last point.
+  void change_count(std::uint32_t count, bool add) {
+    if (add) return add_count(sites.back(), count);
+    if (count_of(sites.back()) == kMostCount) return;  // Nobody knows how many there were.
+    if (count_of(sites.back()) > count) {
+      sites.back().back() -= count;
+    } else {
+      sites.pop_back();
+      numbers.pop_back();
+    }
   }
   void append(const Site<Dim>& site, std::uint32_t number) {
     sites.push_back(site);
@@ -44,11 +52,13 @@ std::unique_ptr<Moments<Dim>> moments_if_large(GatheredSites<Dim>& sites, const 
   return sites.size() < kProofPoints ? nullptr : std::make_unique<Moments<Dim>>(moments<Dim>(sites.all(), cell.low, cell.bits));
 }
 
-/// Of the loose sites.
 template <int Dim>
-void drop_duplicates(LeafNode<Dim>& leaf) {
+void set_sites(LeafNode<Dim>& leaf, std::vector<Site<Dim>>&& sites) {
+  leaf.sites = std::move(sites);
+  leaf.points = 0;
+  for (const Site<Dim>& site : leaf.sites) leaf.points += count_of(site);
   auto& loose = leaf.fit.loose;
-  const auto same = [&](std::uint32_t a, std::uint32_t b) { return leaf.sites[a] == leaf.sites[b]; };
+  const auto same = [&](std::uint32_t a, std::uint32_t b) { return same_place<Dim>(leaf.sites[a], leaf.sites[b]); };
   loose.erase(std::unique(loose.begin(), loose.end(), same), loose.end());
 }
 
@@ -56,11 +66,13 @@ void drop_duplicates(LeafNode<Dim>& leaf) {
 
 void Totals::add(const Totals& other) {
   points += other.points;
+  sites += other.sites;
   nodes += other.nodes;
   leaves += other.leaves;
   fits += other.fits;
   segments += other.segments;
   loose += other.loose;
+  beyond_eta += other.beyond_eta;
   depth = std::max(depth, other.depth);
   data_to_surface = std::max(data_to_surface, other.data_to_surface);
   surface_to_data = std::max(surface_to_data, other.surface_to_data);
@@ -93,7 +105,7 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
   sum_up(inner, cell);
   if (inner.proof) {
     const bool stands = action == Action::insert ? inner.proof->survives_adding(sites, cell) : inner.proof->survives_removing(sites);
-    if (stands && inner.totals.points >= rules_.min_points) return change;
+    if (stands && inner.totals.sites >= rules_.min_points) return change;
     inner.proof.reset();
   }
   GatheredSites<Dim> all{SiteView<Dim>(node)};
@@ -121,15 +133,17 @@ template <int Dim>
 Change<Dim> Tree<Dim>::update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action) {
   const std::span<const Site<Dim>> old = node.leaf ? std::span<const Site<Dim>>(node.leaf->sites) : std::span<const Site<Dim>>();
   Combined<Dim> all(old, sites, action == Action::insert);
-  if (all.sites.size() == old.size()) return {};
   Change<Dim> change;
+  if (all.sites.size() == old.size()) {  // Other counts at most.
+    if (node.leaf) set_sites(*node.leaf, std::move(all.sites));
+    return change;
+  }
   change.changed = bounds(node);
   if (node.leaf && action == Action::insert && all.sites.size() <= kFewSites && !rules_.paper) {
     LeafNode<Dim>& leaf = *node.leaf;
     leaf.fit = refit_few<Dim>(all.sites, all.numbers, leaf.fit, cell, rules_);
-    leaf.sites = std::move(all.sites);
     leaf.sharp = false;
-    drop_duplicates(leaf);
+    set_sites(leaf, std::move(all.sites));
     change.changed.extend(bounds(node));
     change.nodes_touched = 1;
     change.points_read = static_cast<std::int64_t>(leaf.sites.size());
@@ -182,8 +196,9 @@ bool Tree<Dim>::set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<D
   if (!whole) return false;
   const std::span<const Site<Dim>> all = sites.all();
   if (all.empty()) return true;
-  node.leaf = std::make_unique<LeafNode<Dim>>(LeafNode<Dim>{{all.begin(), all.end()}, std::move(*whole)});
-  drop_duplicates(*node.leaf);
+  node.leaf = std::make_unique<LeafNode<Dim>>();
+  node.leaf->fit = std::move(*whole);
+  set_sites(*node.leaf, {all.begin(), all.end()});
   return true;
 }
 
@@ -196,7 +211,7 @@ template <int Dim>
 void Tree<Dim>::sharpen(Node<Dim>& node, const Cell<Dim>& cell) {
   if (node.inner && !node.inner->sharp) {
     InnerNode<Dim>& inner = *node.inner;
-    parallel_for(Cell<Dim>::kChildren, inner.totals.points >= static_cast<std::int64_t>(kParallelPoints) ? 1 : Cell<Dim>::kChildren,
+    parallel_for(Cell<Dim>::kChildren, inner.totals.sites >= static_cast<std::int64_t>(kParallelPoints) ? 1 : Cell<Dim>::kChildren,
                  [&](std::size_t c) { sharpen(inner.children[c], cell.child(static_cast<int>(c))); });
     sum_up(inner, cell);
     inner.sharp = true;
@@ -211,8 +226,9 @@ void Tree<Dim>::sharpen(Node<Dim>& node, const Cell<Dim>& cell) {
 
 template <int Dim>
 std::unique_ptr<Proof<Dim>> Tree<Dim>::prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const {
+  const double cover = rules_.spacing != nullptr ? std::max(eta_, rules_.spacing->most()) : eta_;
   if (sites.size() < kProofPoints || cell.depth() >= max_depth_ || static_cast<std::int64_t>(sites.size()) < rules_.min_points) return nullptr;
-  return Proof<Dim>::find(sites, cell, eta_ / rules_.snap.step(), rules_.paper ? 2 : 1);
+  return Proof<Dim>::find(sites, cell, {eta_ / rules_.snap.step(), cover / rules_.snap.step(), rules_.paper ? 2 : 1});
 }
 
 /// Of all patches below a node [m].
@@ -236,12 +252,14 @@ Totals Tree<Dim>::totals(const Node<Dim>& node, const Cell<Dim>& cell) const {
   totals.depth = cell.depth();
   if (!node.leaf) return totals;
   const LeafNode<Dim>& leaf = *node.leaf;
-  totals.points = static_cast<std::int64_t>(leaf.sites.size());
+  totals.points = leaf.points;
+  totals.sites = static_cast<std::int64_t>(leaf.sites.size());
   totals.loose = static_cast<std::int64_t>(leaf.fit.loose.size());
   if (totals.loose > 0) totals.data_to_surface = totals.surface_to_data = loose_patch<Dim>(leaf.sites[leaf.fit.loose[0]], rules_).data_to_surface;
   for (const Patch<Dim>& patch : leaf.fit.patches) {
     std::int64_t& kind = patch.rank() == Dim - 1 ? totals.fits : patch.rank() == 0 ? totals.loose : totals.segments;
     ++kind;
+    if (patch.surface_to_data > static_cast<float>(eta_)) ++totals.beyond_eta;
     totals.data_to_surface = std::max(totals.data_to_surface, patch.data_to_surface);
     totals.surface_to_data = std::max(totals.surface_to_data, patch.surface_to_data);
   }

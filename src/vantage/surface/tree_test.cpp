@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include <algorithm>
 #include <functional>
 
@@ -219,7 +221,7 @@ TYPED_TEST(TreeOf, ProofsHoldAgainstTheNodeRule) {
     auto given = rules<Dim>(kind == 0 ? 1.0 : kind == 1 ? 2.0 : 0.4);
     const Cell<Dim> cell;
     given.paper = trial % 2 == 0;
-    const auto proof = Proof<Dim>::find(SiteView<Dim>(sites), cell, given.limit / given.snap.step(), given.paper ? 2 : 1);
+    const auto proof = Proof<Dim>::find(SiteView<Dim>(sites), cell, {given.limit / given.snap.step(), given.limit / given.snap.step(), given.paper ? 2 : 1});
     if (!proof) continue;
     ++proofs;
     GatheredSites<Dim> all{SiteView<Dim>(sites)};
@@ -262,10 +264,18 @@ TYPED_TEST(TreeOf, RadixSortIsTheMortonOrder) {
   Random random(10);
   for (const std::uint64_t span : {std::uint64_t{4}, std::uint64_t{1} << 14, std::uint64_t{1} << 32}) {
     std::vector<Site<Dim>> sites(3000);
-    for (auto& site : sites)
+    for (auto& site : sites) {
       for (auto& x : site) x = static_cast<std::uint32_t>(random.below(span));
-    auto expected = sites;
-    std::sort(expected.begin(), expected.end(), morton_less<Dim>);
+      site[Dim] = (static_cast<std::uint32_t>(random.below(2)) << kCountBits) + 1;
+    }
+    std::map<Site<Dim>, int, decltype(&morton_less<Dim>)> counts(&morton_less<Dim>);  // Those of one place and scan are one.
+    for (const auto& site : sites) ++counts[site];
+    std::vector<Site<Dim>> expected;
+    for (const auto& [key, count] : counts) {
+      Site<Dim> site = key;
+      site[Dim] += static_cast<std::uint32_t>(count) - 1;
+      expected.push_back(site);
+    }
     sort_sites<Dim>(sites);
     EXPECT_EQ(sites, expected);
     // Every cell is an interval: splitting finds the same sites as looking at each.
