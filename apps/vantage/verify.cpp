@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verify.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "numbers.h"
+#include "progress.h"
+
+using vantage::CertificateReport;
+using vantage::Json;
+using vantage::OneSided;
+
+namespace {
+
+Json one_sided(const OneSided& truth, double claimed) {
+  return {{"max_m", truth.max}, {"p99_m", truth.p99}, {"mean_m", truth.mean}, {"certified_m", claimed}};
+}
+
+std::string line(const char* name, const OneSided& truth, double claimed, const char* over) {
+  return fmt::format("  {:<16} {:.6g} m at most, certified {:.6g} m; p99 {:.3g}, mean {:.3g} m over {}\n", name, truth.max, claimed, truth.p99,
+                     truth.mean, over);
+}
+
+}  // namespace
+
+VerifyProgress::VerifyProgress(bool quiet) : live_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
+
+VerifyProgress::~VerifyProgress() {
+  if (live_) fmt::print(stderr, "\r\033[K");
+}
+
+void VerifyProgress::stage(std::string_view name) {
+  if (!live_) return;
+  fmt::print(stderr, "\r\033[K{}", name);
+  std::fflush(stderr);
+}
+
+bool VerifyProgress::stop_requested() { return StopSignals::raised(); }
+
+Json to_json(const CertificateReport& report) {
+  return {{"holds", report.holds()},
+          {"points", report.points},
+          {"not_finite", report.not_finite},
+          {"patches", report.patches},
+          {"data_to_surface", one_sided(report.data_to_surface, report.claimed.data_to_surface)},
+          {"surface_to_data", one_sided(report.surface_to_data, report.claimed.surface_to_data)},
+          {"wrong_patches", report.wrong_patches},
+          {"unclaimed_points", report.unclaimed_points},
+          {"faults", report.faults},
+          {"loose", report.loose}};
+}
+
+std::string verify_text(const CertificateReport& report) {
+  std::string out = fmt::format("{}: {} points against {} patches\n", report.holds() ? "verified" : "NOT verified", grouped(report.points),
+                                grouped(report.patches));
+  out += line("data to surface", report.data_to_surface, report.claimed.data_to_surface, "points");
+  out += line("surface to data", report.surface_to_data, report.claimed.surface_to_data, "patches");
+  for (const std::string& loose : report.loose) out += fmt::format("  loose: {}\n", loose);
+  for (const std::string& fault : report.faults) out += fmt::format("  wrong: {}\n", fault);
+  return out;
+}
