@@ -13,13 +13,13 @@ using vantage::OneSided;
 
 namespace {
 
-Json one_sided(const OneSided& truth, double claimed) {
-  return {{"max_m", truth.max}, {"p99_m", truth.p99}, {"mean_m", truth.mean}, {"certified_m", claimed}};
+Json one_sided(const OneSided& truth, double low, double claimed) {
+  return {{"max_m", truth.max}, {"max_at_least_m", low}, {"p99_m", truth.p99}, {"mean_m", truth.mean}, {"certified_m", claimed}};
 }
 
-std::string line(const char* name, const OneSided& truth, double claimed, const char* over) {
-  return fmt::format("  {:<16} {:.6g} m at most, certified {:.6g} m; p99 {:.3g}, mean {:.3g} m over {}\n", name, truth.max, claimed, truth.p99,
-                     truth.mean, over);
+std::string line(const char* name, const OneSided& truth, double low, double claimed) {
+  const std::string largest = low < truth.max ? fmt::format("{:.6g} .. {:.6g}", low, truth.max) : fmt::format("{:.6g}", truth.max);
+  return fmt::format("  {} {} m, certified {:.6g} m; p99 {:.3g} m, mean {:.3g} m\n", name, largest, claimed, truth.p99, truth.mean);
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ Json to_json(const CertificateReport& report) {
           {"points", report.points},
           {"not_finite", report.not_finite},
           {"patches", report.patches},
-          {"data_to_surface", one_sided(report.data_to_surface, report.claimed.data_to_surface)},
-          {"surface_to_data", one_sided(report.surface_to_data, report.claimed.surface_to_data)},
+          {"data_to_surface", one_sided(report.data_to_surface, report.data_to_surface.max, report.claimed.data_to_surface)},
+          {"surface_to_data", one_sided(report.surface_to_data, report.surface_to_data_low, report.claimed.surface_to_data)},
           {"wrong_patches", report.wrong_patches},
           {"unclaimed_points", report.unclaimed_points},
           {"faults", report.faults},
@@ -54,8 +54,8 @@ Json to_json(const CertificateReport& report) {
 std::string verify_text(const CertificateReport& report) {
   std::string out = fmt::format("{}: {} points against {} patches\n", report.holds() ? "verified" : "NOT verified", grouped(report.points),
                                 grouped(report.patches));
-  out += line("data to surface", report.data_to_surface, report.claimed.data_to_surface, "points");
-  out += line("surface to data", report.surface_to_data, report.claimed.surface_to_data, "patches");
+  out += line("point to surface, largest:", report.data_to_surface, report.data_to_surface.max, report.claimed.data_to_surface);
+  out += line("patch to points, largest:", report.surface_to_data, report.surface_to_data_low, report.claimed.surface_to_data);
   for (const std::string& loose : report.loose) out += fmt::format("  loose: {}\n", loose);
   for (const std::string& fault : report.faults) out += fmt::format("  wrong: {}\n", fault);
   return out;

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kRatio = 1.01;    ///< Upper over lower bound.
+constexpr double kRatio = 1.001;   ///< Upper over lower bound.
 constexpr double kSliver = 1e-12;  ///< A polygon of less area than this share of its squared length is its edges.
 
 template <int Dim>

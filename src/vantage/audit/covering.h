@@ -26,7 +26,7 @@ struct Covering {
   double low = 0.0, high = 0.0;
 };
 
-/// `tree` is over `points`. `high` is at most 1 % above `low` (or within rounding of it); both are infinite without points. The patch is halved
+/// `tree` is over `points`. `high` is at most 0.1 % above `low` (or within rounding of it); both are infinite without points. The patch is halved
 /// across its longest edge as long as that is not so: no place of a piece is farther from the points than the piece's farthest corner from one of
 /// them.
 template <int Dim>
