@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "line_progress.h"
 #include "progress.h"
 #include "summary.h"
 #include "vantage/base/error.h"
@@ -47,7 +48,7 @@ vantage::CertificateReport verify(const std::vector<vantage::Vec<Dim>>& points, 
                                   const vantage::HausdorffTree<Dim>& tree, bool quiet) {
   const vantage::SurfaceStatistics s = tree.statistics();
   const StopSignals signals;
-  VerifyProgress progress(quiet);
+  LineProgress progress(quiet);
   return vantage::check_certificate<Dim>(points, patches, {s.eta, s.data_to_surface, s.surface_to_data, !tree.options().paper}, &progress);
 }
 

@@ -2,10 +2,8 @@
 #include "verify.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "numbers.h"
-#include "progress.h"
 
 using vantage::CertificateReport;
 using vantage::Json;
@@ -23,20 +21,6 @@ std::string line(const char* name, const OneSided& truth, double low, double cla
 }
 
 }  // namespace
-
-VerifyProgress::VerifyProgress(bool quiet) : live_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
-
-VerifyProgress::~VerifyProgress() {
-  if (live_) fmt::print(stderr, "\r\033[K");
-}
-
-void VerifyProgress::stage(std::string_view name) {
-  if (!live_) return;
-  fmt::print(stderr, "\r\033[K{}", name);
-  std::fflush(stderr);
-}
-
-bool VerifyProgress::stop_requested() { return StopSignals::raised(); }
 
 Json to_json(const CertificateReport& report) {
   return {{"holds", report.holds()},
