@@ -72,8 +72,7 @@ std::string text(const Vec<Dim>& p) {
 template <int Dim>
 class Surface {
  public:
-  explicit Surface(std::span<const Patch<Dim>> patches)
-      : patches_(patches), tree_(patches.size(), [patches](std::uint32_t i) { return patches[i].bounds(); }) {
+  explicit Surface(std::span<const Patch<Dim>> patches) : patches_(patches), tree_(tree_of(patches)) {
     for (const Patch<Dim>& patch : patches) {
       pieces_.emplace_back(patch);
       reach_ = std::max(reach_, static_cast<double>(patch.data_to_surface));
@@ -91,6 +90,11 @@ class Surface {
   }
 
  private:
+  static BoxTree<Dim> tree_of(std::span<const Patch<Dim>> patches) {
+    std::vector<Box<Dim>> boxes;
+    for (const Patch<Dim>& patch : patches) boxes.push_back(patch.bounds());
+    return BoxTree<Dim>(boxes.size(), [&boxes](std::uint32_t i) { return boxes[i]; });
+  }
   [[nodiscard]] double distance2(std::uint32_t i, const Vec<Dim>& p) const { return pieces_[i].distance2(patches_[i], p); }
 
   std::span<const Patch<Dim>> patches_;

@@ -42,7 +42,7 @@ struct CertificateReport {
 /// Compares a certificate with the truth: every point against all patches, and every patch against all points, whose farthest place is found by
 /// halving the patch until the bounds on both sides are within 0.1 %. It knows nothing of cells and shares no code with the surface stage or its
 /// bounds. `observer` hears "verify points 35 %" and may stop it (throws interrupted). Points that are not finite are counted and left out.
-/// Same bits for any number of threads; 600,000 points and 60,000 patches of a town take 1.5 s of one thread.
+/// Same bits for any number of threads; 2.1 million points and 713,000 patches of a town take 12 s of one thread.
 template <int Dim>
 [[nodiscard]] CertificateReport check_certificate(std::span<const Vec<Dim>> points, std::span<const Patch<Dim>> patches, const Certificate& claimed,
                                                   Observer* observer = nullptr);

@@ -43,7 +43,7 @@ class Halving {
   Covering run(const Patch<Dim>& patch) {
     std::vector<Corner<Dim>> corners;
     for (const Vec<Dim>& v : patch.corners()) {
-      corners.push_back(corner(v, corners.empty() ? nullptr : &corners.back()));
+      corners.push_back(corner(v, std::span<const Corner<Dim>>(corners)));
       tiny_ = std::max(tiny_, 1e-14 * v.template lpNorm<Eigen::Infinity>());
     }
     if (patch.count <= 2) push({{corners[0], corners[patch.count - 1], {}}, patch.count});
@@ -62,10 +62,11 @@ class Halving {
  private:
   [[nodiscard]] bool settled(const Piece<Dim>& piece) const { return piece.count == 1 || piece.high <= std::max(kRatio * low_, low_ + tiny_); }
 
-  /// `guess` is a place near by.
-  Corner<Dim> corner(const Vec<Dim>& place, const Corner<Dim>* guess) {
+  /// What is nearest to places near by is a good guess.
+  Corner<Dim> corner(const Vec<Dim>& place, std::span<const Corner<Dim>> near) {
     typename BoxTree<Dim>::Hit start;
-    if (guess != nullptr) start = {(points_[guess->nearest] - place).squaredNorm(), guess->nearest};
+    for (const Corner<Dim>& other : near)
+      if (const double d2 = (points_[other.nearest] - place).squaredNorm(); d2 < start.distance2) start = {d2, other.nearest};
     const auto hit = tree_.nearest(place, start, [&](std::uint32_t i) { return (points_[i] - place).squaredNorm(); });
     const double distance = std::sqrt(hit.distance2);
     low_ = std::max(low_, distance);
@@ -90,7 +91,8 @@ class Halving {
       for (int j = i + 1; j < piece.count; ++j)
         if ((piece.corners[i].place - piece.corners[j].place).squaredNorm() > (piece.corners[a].place - piece.corners[b].place).squaredNorm())
           a = i, b = j;
-    const Corner<Dim> middle = corner(0.5 * (piece.corners[a].place + piece.corners[b].place), &piece.corners[a]);
+    const Corner<Dim> middle =
+        corner(0.5 * (piece.corners[a].place + piece.corners[b].place), std::span(piece.corners).first(static_cast<std::size_t>(piece.count)));
     Piece<Dim> first = piece, second = piece;
     first.corners[b] = middle;
     second.corners[a] = middle;

@@ -91,7 +91,7 @@ Scene<3> make_wires(int posts, double diameter, std::uint64_t seed) {
                            .domain = {Vec<3>(0.0, 0.0, -0.5), Vec<3>(40.0, 30.0, 12.0)},
                            .start = Vec<3>(20.0, 4.0, 1.6),
                            .voxel = 0.5,
-                           .eta = 0.05,
+                           .eta = 0.1,
                            .range = 60.0,
                            .clearance = 0.4};
   Random random(seed);
