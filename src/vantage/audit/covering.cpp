@@ -9,6 +9,7 @@ namespace vantage {
 namespace {
 
 constexpr double kRatio = 1.001;   ///< Upper over lower bound.
+constexpr double kOnEdge = 1e-9;   ///< Of a triangle's size: so little outside is inside, or the seams of a fan would be holes.
 constexpr double kSliver = 1e-12;  ///< A polygon of less area than this share of its squared length is its edges.
 
 template <int Dim>
@@ -134,19 +135,27 @@ template <int Dim>
 double FlatPiece<Dim>::distance2(const Patch<Dim>& patch, const Vec<Dim>& p) const {
   if (patch.count == 1) return (p - patch.vertices[0]).squaredNorm();
   if (patch.count == 2) return segment_distance2<Dim>(patch.vertices[0], patch.vertices[1], p);
-  double edges = kInfinity;
-  bool left = false, right = false;  // Of the edges, seen along the plane.
-  for (int i = 0; i < patch.count; ++i) {
-    const Vec<Dim>&a = patch.vertices[i], &b = patch.vertices[(i + 1) % patch.count];
-    edges = std::min(edges, segment_distance2<Dim>(a, b, p));
-    const Vec<Dim> side = b - a, to = p - a;
-    const double turn = u_.dot(side) * w_.dot(to) - w_.dot(side) * u_.dot(to);
-    left = left || turn > 0.0;
-    right = right || turn < 0.0;
-  }
-  if (!inside_ || (left && right)) return edges;
+  double least = kInfinity;
+  for (int i = 0; i < patch.count; ++i) least = std::min(least, segment_distance2<Dim>(patch.vertices[i], patch.vertices[(i + 1) % patch.count], p));
   const Vec<Dim> to = p - patch.vertices[0];
-  return std::min(edges, (to - u_ * u_.dot(to) - w_ * w_.dot(to)).squaredNorm());
+  const Vec<2> foot = in_plane(to);
+  if (!is_inside(patch, foot)) return least;
+  return std::min(least, (to - u_ * foot[0] - w_ * foot[1]).squaredNorm());
+}
+
+/// In a triangle of the fan? Not left of every edge: polygons may have edges so short that their direction is chance.
+template <int Dim>
+  requires SpatialDim<Dim>
+bool FlatPiece<Dim>::is_inside(const Patch<Dim>& patch, const Vec<2>& foot) const {
+  const auto cross = [](const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; };
+  for (int i = 1; inside_ && i + 1 < patch.count; ++i) {
+    const Vec<2> b = in_plane(patch.vertices[i] - patch.vertices[0]), c = in_plane(patch.vertices[i + 1] - patch.vertices[0]);
+    const double area = cross(b, c);
+    if (!(std::abs(area) > kSliver * std::max(b.squaredNorm(), c.squaredNorm()))) continue;  // Its edges will do.
+    const double s = cross(foot, c) / area, t = cross(b, foot) / area;
+    if (s >= -kOnEdge && t >= -kOnEdge && s + t <= 1.0 + kOnEdge) return true;
+  }
+  return false;
 }
 
 template <int Dim>

@@ -17,6 +17,9 @@ class FlatPiece {
   [[nodiscard]] double distance2(const Patch<Dim>& patch, const Vec<Dim>& p) const;
 
  private:
+  [[nodiscard]] Vec<2> in_plane(const Vec<Dim>& v) const { return {u_.dot(v), w_.dot(v)}; }
+  [[nodiscard]] bool is_inside(const Patch<Dim>& patch, const Vec<2>& foot) const;
+
   Vec<Dim> u_, w_;       ///< Orthonormal, in the polygon's plane.
   bool inside_ = false;  ///< There is an inside: not a point, a segment or a sliver.
 };
