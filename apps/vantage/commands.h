@@ -11,6 +11,7 @@ using Arguments = std::vector<std::string>;
 int config_command(const Arguments& arguments);
 int explore_command(const Arguments& arguments);
 int info_command(const Arguments& arguments);
+int paper_command(const Arguments& arguments);
 int reconstruct_command(const Arguments& arguments);
 int scan_command(const Arguments& arguments);
 int scene_command(const Arguments& arguments);
@@ -27,6 +28,7 @@ inline constexpr Command kCommands[] = {
     {"scan", "SCENE --at x,y,z -o FILE", "one simulated scan to a file", scan_command},
     {"reconstruct", "CLOUD… -o FILE", "surfaces with a certified error from point clouds", reconstruct_command},
     {"visibility", "PATCHES --from x,y,z -o FILE", "what is seen from a place", visibility_command},
+    {"paper", "NAME -o DIR", "a table or figure of the paper, made again", paper_command},
     {"scene", "NAME -o FILE | --list", "write a built-in scene, or list them", scene_command},
     {"info", "FILE | RUN", "what a file or a run folder holds", info_command},
     {"config", "dump [SCENE]", "all options with unit, range and meaning, as TOML", config_command},

@@ -5,6 +5,8 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "line_progress.h"
+#include "progress.h"
 #include "summary.h"
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
@@ -13,21 +15,46 @@
 #include "vantage/io/patch_file.h"
 #include "vantage/session/clouds.h"
 #include "vantage/session/result.h"
+#include "verify.h"
 
 namespace {
 
 constexpr const char* kPurpose =
     "Fits surfaces to point clouds within a certified error: no measured point is farther than eta from the surface, and no place of the\n"
     "surface farther than eta from a point. Points that no surface explains stay as points. Reads PLY, PCD, XYZ, CSV, scan logs and run folders;\n"
-    "several clouds count as one. Writes .ply (polygons, segments and points with the error of each) or .glb.\n";
+    "several clouds count as one. Writes .ply (polygons, segments and points with the error of each) or .glb. With --verify the certificate is\n"
+    "compared with every point and every patch by a program of its own.\n";
 
 constexpr const char* kExamples =
     "  vantage reconstruct scan0.pcd scan1.pcd --eta 0.05 -o surface.ply\n"
     "  vantage reconstruct runs/town --eta 0.2 -o coarse.glb\n"
-    "  vantage reconstruct cloud.xyz --json        figures only";
+    "  vantage reconstruct cloud.xyz --json        figures only\n"
+    "  vantage reconstruct cloud.xyz --verify      and check them\n"
+    "Exit: 0 done, 1 the certificate is wrong (--verify), 2 bad input, 3 files, 4 memory, 130 stopped.";
+
+struct Flags {
+  std::string path, eta, threads;
+  bool json = false, quiet = false, paper = false, verify = false;
+};
+
+/// What came out, and whether it holds.
+struct Outcome {
+  vantage::Json surface;
+  std::optional<vantage::CertificateReport> report;
+};
 
 template <int Dim>
-vantage::Json reconstruct(const std::vector<vantage::Vec<Dim>>& points, const vantage::SurfaceOptions& options, const std::string& path) {
+vantage::CertificateReport verify(const std::vector<vantage::Vec<Dim>>& points, const std::vector<vantage::Patch<Dim>>& patches,
+                                  const vantage::HausdorffTree<Dim>& tree, bool quiet) {
+  const vantage::SurfaceStatistics s = tree.statistics();
+  const StopSignals signals;
+  LineProgress progress(quiet);
+  return vantage::check_certificate<Dim>(points, patches, {s.eta, s.data_to_surface, s.surface_to_data, !tree.options().paper}, &progress);
+}
+
+template <int Dim>
+Outcome reconstruct(const std::vector<vantage::Vec<Dim>>& points, const vantage::SurfaceOptions& options, const Flags& flags) {
+  const std::string& path = flags.path;
   vantage::Box<Dim> box;
   for (const vantage::Vec<Dim>& p : points)
     if (p.allFinite()) box.extend(p);
@@ -35,13 +62,29 @@ vantage::Json reconstruct(const std::vector<vantage::Vec<Dim>>& points, const va
   // A little larger than the points, so that none lies on its very faces.
   vantage::HausdorffTree<Dim> tree(box.grown(0.001 * box.size().maxCoeff() + 1e-6), options);
   tree.insert(points);
-  if (!path.empty()) {
-    const std::vector<vantage::Patch<Dim>> patches = tree.patches();
+  const std::vector<vantage::Patch<Dim>> patches = tree.patches();
+  if (!path.empty())
     vantage::write_file(path, path.ends_with(".glb") ? vantage::surface_as_glb<Dim>(patches, {}) : vantage::patches_as_ply<Dim>(patches));
+  Outcome outcome{to_json(tree.statistics()), {}};
+  outcome.surface["dim"] = Dim;
+  if (flags.verify) {
+    outcome.report = verify<Dim>(points, patches, tree, flags.quiet);
+    outcome.surface["verify"] = to_json(*outcome.report);
   }
-  vantage::Json json = to_json(tree.statistics());
-  json["dim"] = Dim;
-  return json;
+  return outcome;
+}
+
+int print_outcome(const Outcome& outcome, const Flags& flags) {
+  const vantage::Json& surface = outcome.surface;
+  if (flags.json)
+    fmt::print("{}", vantage::as_text(surface));
+  else if (!flags.quiet)
+    fmt::print("{}{}\n{}", flags.path.empty() ? "" : flags.path + ": ", surface_sentence(surface, surface["dim"].get<int>()),
+               outcome.report ? verify_text(*outcome.report) : "");
+  if (!outcome.report || outcome.report->holds()) return 0;
+  std::fflush(stdout);
+  fmt::print(stderr, "vantage: the certificate is wrong: {}\n", outcome.report->faults.front());
+  return kWrongCertificate;
 }
 
 }  // namespace
@@ -49,35 +92,31 @@ vantage::Json reconstruct(const std::vector<vantage::Vec<Dim>>& points, const va
 int reconstruct_command(const Arguments& arguments) {
   CommandParser parser("reconstruct", "CLOUD… [-o FILE] [options]", kPurpose, kExamples);
   std::vector<std::string> clouds, sets;
-  std::string path, eta, threads;
-  bool json = false, quiet = false, paper = false;
+  Flags flags;
   vantage::SurfaceOptions options;
   parser.app().add_option("CLOUD", clouds, "point clouds, scan logs or run folders");
-  parser.option("-o,--output", path, "FILE", ".ply or .glb", "Output");
-  parser.flag("--json", json, "print the figures as JSON", "Output");
-  parser.flag("-q,--quiet", quiet, "print nothing", "Output");
+  parser.option("-o,--output", flags.path, "FILE", ".ply or .glb", "Output");
+  parser.flag("--json", flags.json, "print the figures as JSON", "Output");
+  parser.flag("-q,--quiet", flags.quiet, "print nothing", "Output");
   for (const vantage::Option& option : list_options(options))
     if (option.name == "eta")
-      parser.option("--eta", eta, "METRES", fmt::format("{} ({}; default {})", option.doc, option.allowed(), option.text()), "Method");
-  parser.flag("--paper", paper, "the paper's own behaviour: small cells dropped, best fit kept at the depth limit (surface.paper)", "Method");
+      parser.option("--eta", flags.eta, "METRES", fmt::format("{} ({}; default {})", option.doc, option.allowed(), option.text()), "Method");
+  parser.flag("--paper", flags.paper, "the paper's own behaviour: small cells dropped, best fit kept at the depth limit (surface.paper)", "Method");
+  parser.flag("--verify", flags.verify, "check the certificate: every point against all patches, every patch against all points", "Method");
   parser.app()
       .add_option("--set", sets, "any option of the stage surface; vantage config dump lists them")
       ->type_name("surface.OPTION=VALUE")
       ->group("Method");
-  parser.option("--threads", threads, "N", "at most so many threads (default: all cores)", "Method");
+  parser.option("--threads", flags.threads, "N", "at most so many threads (default: all cores)", "Method");
   if (!parser.parse(arguments)) return 0;
   vantage::require(!clouds.empty(), "CLOUD is missing");
-  vantage::require(path.empty() || path.ends_with(".ply") || path.ends_with(".glb"), fmt::format("{}: must end in .ply or .glb", path), "-o");
-  if (!eta.empty()) sets.push_back("surface.eta=" + eta);
-  if (paper) sets.emplace_back("surface.paper=true");
+  vantage::require(flags.path.empty() || flags.path.ends_with(".ply") || flags.path.ends_with(".glb"),
+                   fmt::format("{}: must end in .ply or .glb", flags.path), "-o");
+  if (!flags.eta.empty()) sets.push_back("surface.eta=" + flags.eta);
+  if (flags.paper) sets.emplace_back("surface.paper=true");
   set_options(list_options(options), "surface", sets);
-  const vantage::ThreadLimit limit(threads.empty() ? 0 : static_cast<int>(whole_number("--threads", threads, 1, 1024)));
+  const vantage::ThreadLimit limit(flags.threads.empty() ? 0 : static_cast<int>(whole_number("--threads", flags.threads, 1, 1024)));
   const std::vector<std::filesystem::path> paths(clouds.begin(), clouds.end());
   const vantage::AnyPoints points = vantage::read_clouds(paths);
-  const vantage::Json surface = std::visit([&](const auto& p) { return reconstruct(p, options, path); }, points);
-  if (json)
-    fmt::print("{}", vantage::as_text(surface));
-  else if (!quiet)
-    fmt::print("{}{}\n", path.empty() ? "" : path + ": ", surface_sentence(surface, surface["dim"].get<int>()));
-  return 0;
+  return print_outcome(std::visit([&](const auto& p) { return reconstruct(p, options, flags); }, points), flags);
 }

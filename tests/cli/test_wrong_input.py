@@ -147,6 +147,11 @@ TABLE = [
     (["scan", "cube.ply", "--at", "0.5,0.5,0.5", "-o", "out.ply"], 2, None),
     (["scan", "planar", "--at", "2,2", "-o", "no/such/folder/out.ply"], 3, "no/such/folder"),
     (["scan", "none.ply", "--at", "2,2,2", "-o", "out.ply"], 3, "none.ply"),
+    # paper
+    (["paper"], 2, "NAME is missing: must be one of table1"),
+    (["paper", "fig3", "-o", "out"], 2, "fig3: not a figure we make yet: must be one of table1"),
+    (["paper", "table9"], 2, "table9: not a table we make: must be one of table1"),
+    (["paper", "table1", "--step-deg", "0"], 2, "sensor.step_deg = 0: must be"),
     # reconstruct
     (["reconstruct", "-o", "out.ply"], 2, "CLOUD is missing"),
     (["reconstruct", "none.ply", "-o", "out.ply"], 3, "none.ply"),

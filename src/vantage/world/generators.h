@@ -12,8 +12,9 @@ namespace vantage {
 [[nodiscard]] Scene<2> make_discs(int discs, std::uint64_t seed);
 [[nodiscard]] Scene<3> make_pipes(int cylinders, bool symmetric, std::uint64_t seed);  ///< Figs. 3, 4.
 [[nodiscard]] Scene<3> make_town(std::uint64_t seed);
-[[nodiscard]] Scene<3> make_patio(std::uint64_t seed);   ///< Figs. 5, 6.
-[[nodiscard]] Scene<3> make_church(std::uint64_t seed);  ///< Fig. 7.
+[[nodiscard]] Scene<3> make_patio(std::uint64_t seed);                              ///< Figs. 5, 6.
+[[nodiscard]] Scene<3> make_church(std::uint64_t seed);                             ///< Fig. 7.
+[[nodiscard]] Scene<3> make_wires(int posts, double diameter, std::uint64_t seed);  ///< Diameter of the thinnest wires [m].
 [[nodiscard]] Scene<2> make_blocks(int columns, int rows, std::uint64_t seed);
 [[nodiscard]] Scene<2> make_office(std::uint64_t seed);
 [[nodiscard]] Scene<2> make_town2d(int houses, std::uint64_t seed);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "line_progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "progress.h"
+
+LineProgress::LineProgress(bool quiet) : live_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
+
+LineProgress::~LineProgress() {
+  if (!live_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+}
+
+void LineProgress::stage(std::string_view name) {
+  if (!live_) return;
+  fmt::print(stderr, "\r\033[K{}", name);
+  std::fflush(stderr);
+}
+
+bool LineProgress::stop_requested() { return StopSignals::raised(); }
