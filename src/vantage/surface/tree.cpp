@@ -103,9 +103,10 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
   for (const Change<Dim>& part : changes) change.add(part);
   ++change.nodes_touched;
   sum_up(inner, cell);
+  const std::int64_t few = rules_.paper ? rules_.min_points : static_cast<std::int64_t>(kFewSites) + 1;
   if (inner.proof) {
     const bool stands = action == Action::insert ? inner.proof->survives_adding(sites, cell) : inner.proof->survives_removing(sites);
-    if (stands && inner.totals.sites >= rules_.min_points) return change;
+    if (stands && inner.totals.sites >= few) return change;
     inner.proof.reset();
   }
   GatheredSites<Dim> all{SiteView<Dim>(node)};
