@@ -122,8 +122,9 @@ struct Explorer<Dim>::Impl {
 
     const Scan<Dim> scan = timed("scan", [&] { return sensor.scan(vantage_point, record.scan); });  // LIDAR(x_c)
     const Grid<Dim> near = window_of(scan);
-    const SurfaceUpdate<Dim> update = timed("surface", [&] { return surface.insert(hit_points(scan), SurfaceSensor<Dim>{scan.origin, scan.pattern.step}); });  // Sec. IV-A
-    const Field<Dim> phi = timed("visibility", [&] {                                                       // Sec. IV-B
+    const SurfaceUpdate<Dim> update =
+        timed("surface", [&] { return surface.insert(hit_points(scan), SurfaceSensor<Dim>{scan.origin, scan.pattern.step}); });  // Sec. IV-A
+    const Field<Dim> phi = timed("visibility", [&] {                                                                             // Sec. IV-B
       const std::vector<Patch<Dim>> patches = surface.patches(near.bounds().grown(2.0 * near.spacing + eta));
       return visibility<Dim>(patches, scan, near, eta, options.visibility);
     });

@@ -245,38 +245,48 @@ bool passes_limit(const ConvexRegion<2>& region, const Feet<2>& points, double l
   return best2 > limit * limit;
 }
 
-}  // namespace
-
-template <>
-Covering<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search) {
+Covering<2> branch_and_bound(const ConvexRegion<2>& region, const Feet<2>& points, double limit, bool sharp) {
   constexpr int Rank = 2;
-  if (region.count == 0) return {0.0, {}};
-  if (points.size() == 0) return {std::nullopt, region.vertices[0]};
-  if (search.first != nullptr && passes_limit(region, points, limit, *search.first)) return {std::nullopt, *search.first};
-  if (!search.sharp && points.size() <= kFewFeet) {
-    const auto uncovered = find_uncovered(region, points, limit);
-    return uncovered ? Covering<2>{std::nullopt, *uncovered} : Covering<2>{limit, {}};
-  }
   thread_local Arena<Rank> arena;
-  Search<Rank> bound(region, arena, limit, search.sharp);
+  Search<Rank> search(region, arena, limit, sharp);
   std::optional<double> radius;
   if (points.size() >= kManyFeet) {
-    typename ConvexRegion<Rank>::Place low = region.vertices[0], high = low;
+    ConvexRegion<Rank>::Place low = region.vertices[0], high = low;
     for (int i = 1; i < region.count; ++i) {
       low = low.cwiseMin(region.vertices[i]);
       high = high.cwiseMax(region.vertices[i]);
     }
-    const FeetLattice<Rank> lattice(points, low, high);
     arena.size = 0;
-    radius = bound.run(lattice);
+    radius = search.run(FeetLattice<Rank>(points, low, high));
   } else {
     arena.reserve(2 * points.size());
     for (int k = 0; k < Rank; ++k) std::copy(points.at[k].begin(), points.at[k].end(), arena.at[k].begin());
     std::copy(points.height2.begin(), points.height2.end(), arena.height2.begin());
     arena.size = points.size();
-    radius = bound.run();
+    radius = search.run();
   }
-  return {radius, bound.farthest()};
+  return {radius, search.farthest()};
+}
+
+}  // namespace
+
+template <>
+Covering<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search) {
+  constexpr double kWider = 1.0 + 1e-3;
+  if (region.count == 0) return {0.0, {}};
+  if (points.size() == 0) return {std::nullopt, region.vertices[0]};
+  if (!std::isfinite(limit)) return branch_and_bound(region, points, limit, true);
+  // A sharp search decides as any other does; then it looks for the radius without that limit in its way.
+  if (search.first != nullptr && passes_limit(region, points, limit, *search.first)) return {std::nullopt, *search.first};
+  Covering<2> covering{limit, {}};
+  if (points.size() > kFewFeet) {
+    covering = branch_and_bound(region, points, limit, false);
+  } else if (const auto uncovered = find_uncovered(region, points, limit)) {
+    covering = {std::nullopt, *uncovered};
+  }
+  if (!search.sharp || !covering.radius) return covering;
+  const double radius = branch_and_bound(region, points, kWider * limit, true).radius.value_or(limit);
+  return {std::min(limit, radius), {}};
 }
 
 }  // namespace vantage

@@ -20,12 +20,14 @@ template <int Dim>
 FitRules<Dim> make_rules(const Box<Dim>& domain, const SurfaceOptions& options, const SensorSpacing<Dim>& spacing) {
   check_options(options, "surface");
   require(options.quantise < options.eta, fmt::format("surface.quantise = {}: must be below surface.eta = {} [m]", options.quantise, options.eta));
-  require(options.quantise == 0.0 || options.spacing == SurfaceOptions::Spacing::fixed, "surface.quantise: not together with surface.spacing = sensor");
+  require(options.quantise == 0.0 || options.spacing == SurfaceOptions::Spacing::fixed,
+          "surface.quantise: not together with surface.spacing = sensor");
   require(!options.paper || options.spacing == SurfaceOptions::Spacing::fixed, "surface.paper: not together with surface.spacing = sensor");
   FitRules<Dim> rules{Snap<Dim>(domain, options.quantise), 0.0, options.min_points > 0 ? options.min_points : Dim + 2, options.paper};
   rules.limit = options.eta * (1.0 - kFloatMargin) - rules.snap.slack();
   const double rounding = Snap<Dim>(domain).slack();
-  require(rules.limit > 16.0 * rounding, fmt::format("surface.eta = {:g}: too fine for a domain this large; must be > {:g} [m]", options.eta, 20.0 * rounding));
+  require(rules.limit > 16.0 * rounding,
+          fmt::format("surface.eta = {:g}: too fine for a domain this large; must be > {:g} [m]", options.eta, 20.0 * rounding));
   if (options.spacing == SurfaceOptions::Spacing::sensor) rules.spacing = &spacing;
   return rules;
 }
@@ -40,7 +42,8 @@ void describe(SurfaceOptions& options, const OptionVisitor& visit) {
         "how far a place of a patch may be from the points: eta, or as far as the rays of its scans are apart, if that is more");
   visit("spacing_factor", options.spacing_factor, "", {0.1, 10.0}, "spacing = sensor: times range * step / cos(incidence)");
   visit("spacing_most", options.spacing_most, "m", {0.0, 100.0}, "spacing = sensor: never farther than this");
-  visit("quantise", options.quantise, "m", {0.0, 1e3}, "points count as the centre of their cell of this side, which bounds the memory; 0: as themselves");
+  visit("quantise", options.quantise, "m", {0.0, 1e3},
+        "points count as the centre of their cell of this side, which bounds the memory; 0: as themselves");
   visit("paper", options.paper, "the paper's own behaviour: small cells dropped, best fit kept at the depth limit");
 }
 

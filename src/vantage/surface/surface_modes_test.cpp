@@ -113,7 +113,9 @@ TYPED_TEST(SurfaceModes, HistoriesOfScansEndInTheSameTree) {
     if (!cells) options.spacing = SurfaceOptions::Spacing::sensor;
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     std::vector<std::pair<Cloud<Dim>, SurfaceSensor<Dim>>> scans;
-    for (int i = 0; i < 6; ++i) scans.emplace_back(scene<Dim>(random.next(), random.below(400)), SurfaceSensor<Dim>{anywhere<Dim>(random, 5.0), 0.05});
+    for (int i = 0; i < 6; ++i)
+      scans.emplace_back(scene<Dim>(random.next(), random.below(random.below(4) == 0 ? 3000 : 400)),
+                         SurfaceSensor<Dim>{anywhere<Dim>(random, 5.0), 0.05});
     HausdorffTree<Dim> tree(domain<Dim>(), options), kept(domain<Dim>(), options);
     for (const auto& [points, sensor] : scans) tree.insert(points, sensor);
     for (const int i : {4, 1, 3}) tree.remove(scans[i].first, scans[i].second);

@@ -102,6 +102,7 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
   Change<Dim> change;
   for (const Change<Dim>& part : changes) change.add(part);
   ++change.nodes_touched;
+  const std::int64_t before = inner.totals.sites;
   sum_up(inner, cell);
   const std::int64_t few = rules_.paper ? rules_.min_points : static_cast<std::int64_t>(kFewSites) + 1;
   if (inner.proof) {
@@ -115,7 +116,8 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
     inner.moments.reset();
     return change;
   }
-  if (inner.moments && action == Action::insert) {
+  const bool all_new = inner.totals.sites - before == static_cast<std::int64_t>(sites.size());
+  if (inner.moments && all_new) {
     inner.moments->add(moments<Dim>(sites, cell.low, cell.bits));
   } else {
     inner.moments = moments_if_large(all, cell);

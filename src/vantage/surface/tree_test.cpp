@@ -221,7 +221,8 @@ TYPED_TEST(TreeOf, ProofsHoldAgainstTheNodeRule) {
     auto given = rules<Dim>(kind == 0 ? 1.0 : kind == 1 ? 2.0 : 0.4);
     const Cell<Dim> cell;
     given.paper = trial % 2 == 0;
-    const auto proof = Proof<Dim>::find(SiteView<Dim>(sites), cell, {given.limit / given.snap.step(), given.limit / given.snap.step(), given.paper ? 2 : 1});
+    const auto proof =
+        Proof<Dim>::find(SiteView<Dim>(sites), cell, {given.limit / given.snap.step(), given.limit / given.snap.step(), given.paper ? 2 : 1});
     if (!proof) continue;
     ++proofs;
     GatheredSites<Dim> all{SiteView<Dim>(sites)};
