@@ -27,7 +27,7 @@ struct Cloud {
 /// each is the one farthest from those before. The first ones are thus the same for any count.
 [[nodiscard]] std::vector<Vec<3>> stations(const Scene<3>& scene, std::size_t count);
 
-/// Scans with the paper's sensor (0.5 degrees both ways, 80 m) from stations(scene, count), without what lies within 2.25 m of it (the vehicle
+/// Scans with the paper's sensor (0.5 degrees both ways, 80 m) from stations(scene, count), without what lies within 2.15 m of it (the vehicle
 /// that carries it) or outside the scene's domain.
 [[nodiscard]] Cloud scan_scene(const Scene<3>& scene, std::size_t count);
 
