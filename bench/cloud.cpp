@@ -18,12 +18,12 @@
 namespace vantage::bench {
 namespace {
 
-constexpr double kStep = 2.0;       ///< Between places looked at [m].
-constexpr double kClearance = 1.0;  ///< Of a place to surfaces [m].
-constexpr double kMargin = 10.0;    ///< Of a place to the sides of the domain [m].
-constexpr double kCarrier = 2.15;   ///< Nearer returns are taken for the vehicle's own and left out, as road data sets do [m].
+constexpr double kStep = 2.0;        ///< Between places looked at [m].
+constexpr double kClearance = 1.0;   ///< Of a place to surfaces [m].
+constexpr double kMargin = 10.0;     ///< Of a place to the sides of the domain [m].
+constexpr double kCarrier = 2.15;    ///< Nearer returns are taken for the vehicle's own and left out, as road data sets do [m].
 constexpr double kDensity = 2000.0;  ///< Of the places on thin things [1/m^2].
-constexpr double kObserved = 0.1;   ///< From a measured point [m].
+constexpr double kObserved = 0.1;    ///< From a measured point [m].
 
 /// The places of a walk from the start, in the order in which they are reached.
 std::vector<Vec<3>> walk(const Scene<3>& scene) {

@@ -13,10 +13,10 @@ namespace vantage::bench {
 
 /// What a contender's map amounts to.
 struct Output {
-  Soup soup;                    ///< The reconstruction, to be judged.
-  std::int64_t primitives = 0;  ///< Of the contender's own kind.
-  std::string kind;             ///< "voxels", "planes", ...; more about them, for the table.
-  double bytes = 0.0;           ///< In the contender's own file format.
+  Soup soup;                                               ///< The reconstruction, to be judged.
+  std::int64_t primitives = 0;                             ///< Of the contender's own kind.
+  std::string kind;                                        ///< "voxels", "planes", ...; more about them, for the table.
+  double bytes = 0.0;                                      ///< In the contender's own file format.
   std::optional<double> data_to_surface, surface_to_data;  ///< Bounds of its own, if it has any [m].
 };
 
@@ -34,9 +34,9 @@ class Contender {
 
 /// A kind of mapper with one number to choose.
 struct ContenderKind {
-  std::string name;       ///< As on the command line: NAME:PARAMETER.
-  std::string title;      ///< In the table; {} is the parameter.
-  std::string doc;        ///< What was measured, one sentence.
+  std::string name;                ///< As on the command line: NAME:PARAMETER.
+  std::string title;               ///< In the table; {} is the parameter.
+  std::string doc;                 ///< What was measured, one sentence.
   std::vector<double> parameters;  ///< In the paper's table.
   std::function<std::unique_ptr<Contender>(double parameter)> make;
   bool match = false;  ///< In the paper's table, ours at its largest error stands beside it.

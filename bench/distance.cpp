@@ -96,9 +96,8 @@ std::uint32_t Nearest::build(std::vector<std::uint32_t>& order, std::uint32_t be
   int axis = 0;
   centers.size().maxCoeff(&axis);
   const std::uint32_t middle = begin + node.count / 2;
-  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-    return soup_[a].bounds().center()[axis] < soup_[b].bounds().center()[axis];
-  });
+  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
+                   [&](std::uint32_t a, std::uint32_t b) { return soup_[a].bounds().center()[axis] < soup_[b].bounds().center()[axis]; });
   build(order, begin, middle);
   const std::uint32_t second = build(order, middle, end);
   nodes_[id].first = second;

@@ -17,8 +17,8 @@
 namespace vantage::bench {
 namespace {
 
-constexpr int kRuns = 3;           ///< At most.
-constexpr double kEnough = 5.0;    ///< No further run after this much CPU [s].
+constexpr int kRuns = 3;         ///< At most.
+constexpr double kEnough = 5.0;  ///< No further run after this much CPU [s].
 
 using Json = nlohmann::json;
 
@@ -146,9 +146,17 @@ int start(std::vector<std::string> arguments) {
 
 Measured measure(const Job& job, const std::filesystem::path& cloud_file) {
   const std::filesystem::path out = cloud_file.string() + ".out";
-  std::vector<std::string> arguments{"bench_surface",    "job",         job.contender,       "--cloud",
-                                     cloud_file.string(), "--out",       out.string(),        "--scans",
-                                     std::to_string(job.scans), "--threads", std::to_string(job.threads)};
+  std::vector<std::string> arguments{"bench_surface",
+                                     "job",
+                                     job.contender,
+                                     "--cloud",
+                                     cloud_file.string(),
+                                     "--out",
+                                     out.string(),
+                                     "--scans",
+                                     std::to_string(job.scans),
+                                     "--threads",
+                                     std::to_string(job.threads)};
   for (const std::string& set : job.sets) arguments.insert(arguments.end(), {"--set", set});
   const int status = start(arguments);
   Measured m;

@@ -17,13 +17,13 @@ struct Job {
 
 /// Least of the runs made: up to three, while they take no longer than a few seconds together. CPU is that of all threads.
 struct Figures {
-  double cpu = 0.0, wall = 0.0;           ///< From points in memory to the map [s].
-  double output_cpu = 0.0;                ///< From the map to its primitives, as shapes and as a file [s].
-  double peak = 0.0;                      ///< Growth of the process while the map was built first [MB].
+  double cpu = 0.0, wall = 0.0;  ///< From points in memory to the map [s].
+  double output_cpu = 0.0;       ///< From the map to its primitives, as shapes and as a file [s].
+  double peak = 0.0;             ///< Growth of the process while the map was built first [MB].
   std::int64_t points = 0;
-  std::optional<double> add_cpu;          ///< Adding scan `scans` + 1 [s].
-  std::int64_t added_points = 0;          ///< Of that scan.
-  std::string error;                      ///< Why there are no figures.
+  std::optional<double> add_cpu;  ///< Adding scan `scans` + 1 [s].
+  std::int64_t added_points = 0;  ///< Of that scan.
+  std::string error;              ///< Why there are no figures.
 };
 
 struct Measured {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface stage beside its peers, on one cloud, in one run (bench/README.md):
+// The surface stage beside its peers, on one cloud, in one run (docs/8-surface-bench.md):
 //   bench_surface --eta 0.1,0.2 --peers --match --growth --markdown table.md --json table.json
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ struct Settings {
   int threads = 1;
   bool peers = false, match = false, growth = false;
   double growth_eta = 0.4;
-  std::vector<std::size_t> growth_scans{1, 4, 9, 16, 32, 44, 88};
+  std::vector<std::size_t> growth_scans{1, 4, 9, 16, 32, 50, 88};
   std::filesystem::path json, markdown, write;
 };
 

@@ -23,7 +23,10 @@ std::string padded(const std::string& text, std::size_t to, bool left) {
 /// Three digits that count, but no exponent.
 std::string number(double x) {
   if (!(x < kInfinity)) return "-";
-  return x >= 100.0 ? fmt::format("{:.0f}", x) : x >= 10.0 ? fmt::format("{:.1f}", x) : x >= 1.0 ? fmt::format("{:.2f}", x) : fmt::format("{:.3f}", x);
+  return x >= 100.0  ? fmt::format("{:.0f}", x)
+         : x >= 10.0 ? fmt::format("{:.1f}", x)
+         : x >= 1.0  ? fmt::format("{:.2f}", x)
+                     : fmt::format("{:.3f}", x);
 }
 
 std::string side(const Side& s) { return fmt::format("{} / {} / {}", number(s.maximum), number(s.p99), number(s.mean)); }
@@ -54,8 +57,8 @@ std::string Table::markdown() const {
 }
 
 std::string quality_table(const std::vector<Row>& rows) {
-  Table table({"", "CPU s", "output s", "MB", "primitives", "file MB", "B/point", "data to surface [m]", "surface to data [m]", "certified", "poles", "wires",
-               "add a scan, CPU ms"});
+  Table table({"", "CPU s", "output s", "MB", "primitives", "file MB", "B/point", "data to surface [m]", "surface to data [m]", "certified", "poles",
+               "wires", "add a scan, CPU ms"});
   for (const Row& row : rows) {
     const Figures& f = row.measured.figures;
     const Output& o = row.measured.output;
@@ -73,7 +76,8 @@ std::string quality_table(const std::vector<Row>& rows) {
 }
 
 std::string growth_table(const std::vector<Row>& rows) {
-  Table table({"", "scans", "points", "threads", "CPU s", "µs/point", "wall s", "MB", "primitives", "certified", "add a scan, CPU ms", "µs/point of it"});
+  Table table(
+      {"", "scans", "points", "threads", "CPU s", "µs/point", "wall s", "MB", "primitives", "certified", "add a scan, CPU ms", "µs/point of it"});
   for (const Row& row : rows) {
     const Figures& f = row.measured.figures;
     const auto points = static_cast<double>(f.points);
@@ -88,10 +92,21 @@ std::string growth_table(const std::vector<Row>& rows) {
 nlohmann::json as_json(const Row& row) {
   const Figures& f = row.measured.figures;
   const Output& o = row.measured.output;
-  nlohmann::json j{{"contender", row.job.contender}, {"title", row.title},   {"set", row.job.sets},           {"scans", row.job.scans},
-                   {"threads", row.job.threads},     {"points", f.points},   {"cpu_s", f.cpu},                {"wall_s", f.wall},
-                   {"output_cpu_s", f.output_cpu},   {"peak_mb", f.peak},    {"primitives", o.primitives},    {"kind", o.kind},
-                   {"bytes", o.bytes},               {"error", f.error},     {"added_points", f.added_points}};
+  nlohmann::json j{{"contender", row.job.contender},
+                   {"title", row.title},
+                   {"set", row.job.sets},
+                   {"scans", row.job.scans},
+                   {"threads", row.job.threads},
+                   {"points", f.points},
+                   {"cpu_s", f.cpu},
+                   {"wall_s", f.wall},
+                   {"output_cpu_s", f.output_cpu},
+                   {"peak_mb", f.peak},
+                   {"primitives", o.primitives},
+                   {"kind", o.kind},
+                   {"bytes", o.bytes},
+                   {"error", f.error},
+                   {"added_points", f.added_points}};
   if (f.add_cpu) j["add_cpu_s"] = *f.add_cpu;
   if (o.data_to_surface) j["certified"] = {{"data_to_surface", *o.data_to_surface}, {"surface_to_data", o.surface_to_data.value_or(kInfinity)}};
   if (row.judged)

@@ -82,7 +82,10 @@ class RegionGrowing final : public Contender {
 }  // namespace
 
 std::vector<ContenderKind> cgal_contenders() {
-  return {{"cgal", "CGAL region growing, ε {} m", "PCA normals and planes by region growing, 12 neighbours, 25 degrees, five points at least", {0.1},
+  return {{"cgal",
+           "CGAL region growing, ε {} m",
+           "PCA normals and planes by region growing, 12 neighbours, 25 degrees, five points at least",
+           {0.1},
            [](double epsilon) { return std::make_unique<RegionGrowing>(epsilon); }}};
 }
 

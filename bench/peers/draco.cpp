@@ -23,7 +23,8 @@ class Draco final : public Contender {
 
   void build(const Cloud& cloud, std::size_t scans) override {
     std::vector<Point> points;
-    for (const Vec<3>& p : cloud.scans_before(scans)) points.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+    for (const Vec<3>& p : cloud.scans_before(scans))
+      points.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
     Point low = points.front(), high = low;
     for (const Point& p : points)
       for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], p[a]), high[a] = std::max(high[a], p[a]);
@@ -87,8 +88,16 @@ class Draco final : public Contender {
 }  // namespace
 
 std::vector<ContenderKind> draco_contenders() {
-  return {{"draco", "Draco, {} bits", "k-d tree coding of all points, best compression", {10, 11, 12, 13, 14}, [](double bits) { return std::make_unique<Draco>(bits, false); }, true},
-          {"draco-once", "Draco, equal points once, {} bits", "the same of the points left when those that fall together are merged", {10, 11, 12, 13, 14},
+  return {{"draco",
+           "Draco, {} bits",
+           "k-d tree coding of all points, best compression",
+           {10, 11, 12, 13, 14},
+           [](double bits) { return std::make_unique<Draco>(bits, false); },
+           true},
+          {"draco-once",
+           "Draco, equal points once, {} bits",
+           "the same of the points left when those that fall together are merged",
+           {10, 11, 12, 13, 14},
            [](double bits) { return std::make_unique<Draco>(bits, true); }}};
 }
 

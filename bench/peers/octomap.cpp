@@ -70,7 +70,12 @@ std::unique_ptr<Contender> make(double resolution) {
 
 std::vector<ContenderKind> octomap_contenders() {
   return {{"octomap", "OctoMap, occupied only, {} m", "setNodeValue of each hit; voxels are solid cubes", {0.2}, make<Octomap::Mode::occupied>, true},
-          {"octomap-centers", "OctoMap, the same, voxel centres, {} m", "the same map without pruning, read as the centres of its voxels", {0.2}, make<Octomap::Mode::centers>, true},
+          {"octomap-centers",
+           "OctoMap, the same, voxel centres, {} m",
+           "the same map without pruning, read as the centres of its voxels",
+           {0.2},
+           make<Octomap::Mode::centers>,
+           true},
           {"octomap-insert", "OctoMap insertPointCloud, {} m", "discretised, with free space along the rays", {0.2}, make<Octomap::Mode::rays>}};
 }
 

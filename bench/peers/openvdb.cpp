@@ -15,7 +15,8 @@ constexpr double kBand = 3.0;  ///< Half width of the truncated field [voxels], 
 
 class Tsdf final : public Contender {
  public:
-  explicit Tsdf(double voxel) : voxel_(voxel), distance_(openvdb::FloatGrid::create(static_cast<float>(kBand * voxel))), weight_(openvdb::FloatGrid::create(0.0F)) {
+  explicit Tsdf(double voxel)
+      : voxel_(voxel), distance_(openvdb::FloatGrid::create(static_cast<float>(kBand * voxel))), weight_(openvdb::FloatGrid::create(0.0F)) {
     openvdb::initialize();
   }
 
@@ -92,7 +93,10 @@ class Tsdf final : public Contender {
 }  // namespace
 
 std::vector<ContenderKind> openvdb_contenders() {
-  return {{"openvdb", "OpenVDB TSDF, {} m", "weighted mean of the ranges in a band of three voxels, then volumeToMesh without the sheet behind the band", {0.2},
+  return {{"openvdb",
+           "OpenVDB TSDF, {} m",
+           "weighted mean of the ranges in a band of three voxels, then volumeToMesh without the sheet behind the band",
+           {0.2},
            [](double voxel) { return std::make_unique<Tsdf>(voxel); }}};
 }
 

@@ -65,8 +65,11 @@ void set_surface_option(const std::string& text) {
 }
 
 std::vector<ContenderKind> vantage_contenders() {
-  return {{"vantage", "vantage, η {} m", "all points at once, with the certificate", {0.1}, [](double eta) { return std::make_unique<Tree>(eta, true); }},
-          {"vantage-scans", "vantage scan by scan, η {} m", "the same map, grown scan by scan", {0.1}, [](double eta) { return std::make_unique<Tree>(eta, false); }}};
+  return {
+      {"vantage", "vantage, η {} m", "all points at once, with the certificate", {0.1}, [](double eta) { return std::make_unique<Tree>(eta, true); }},
+      {"vantage-scans", "vantage scan by scan, η {} m", "the same map, grown scan by scan", {0.1}, [](double eta) {
+         return std::make_unique<Tree>(eta, false);
+       }}};
 }
 
 }  // namespace vantage::bench
