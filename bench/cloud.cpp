@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include <deque>
-#include <fstream>
 #include <map>
 
+#include "binary.h"
 #include "distance.h"
 #include "vantage/base/error.h"
 #include "vantage/base/random.h"
@@ -51,24 +51,6 @@ std::vector<Vec<3>> walk(const Scene<3>& scene) {
     }
   }
   return places;
-}
-
-template <class T>
-void put(std::ofstream& file, const std::vector<T>& values) {
-  const std::uint64_t count = values.size();
-  file.write(reinterpret_cast<const char*>(&count), sizeof count);
-  file.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
-}
-
-/// At most the first `most`; the file stands after all of them.
-template <class T>
-std::vector<T> get(std::ifstream& file, std::size_t most) {
-  std::uint64_t count = 0;
-  file.read(reinterpret_cast<char*>(&count), sizeof count);
-  std::vector<T> values(std::min<std::size_t>(count, most));
-  file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
-  file.seekg(static_cast<std::streamoff>((count - values.size()) * sizeof(T)), std::ios::cur);
-  return values;
 }
 
 }  // namespace
@@ -117,11 +99,11 @@ std::vector<Vec<3>> observed_places(const Scene<3>& scene, const char* kind, std
     for (std::uint32_t f = part.first; f < part.first + part.count; ++f) {
       const auto& [i, j, k] = scene.mesh.facets[f];
       const Vec<3> a = scene.mesh.vertices[i], u = scene.mesh.vertices[j] - a, v = scene.mesh.vertices[k] - a;
-      const double expected = 0.5 * u.cross(v).norm() * kDensity;
-      for (double left = expected; left > random.uniform(); left -= 1.0) {
+      const auto count = static_cast<int>(0.5 * u.cross(v).norm() * kDensity + random.uniform());
+      for (int n = 0; n < count; ++n) {
         double s = random.uniform(), t = random.uniform();
         if (s + t > 1.0) s = 1.0 - s, t = 1.0 - t;
-        places.push_back(a + s * u + t * v);
+        places.emplace_back(a + s * u + t * v);
       }
     }
   }

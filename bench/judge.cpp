@@ -65,13 +65,13 @@ void add_places(const Piece& piece, std::vector<Vec<3>>& places) {
     const Vec<3> size = piece.at[1] - piece.at[0];
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j)
-        for (int k = 0; k <= n; ++k) places.push_back(piece.at[0] + size.cwiseProduct(Vec<3>(at(i), at(j), at(k))));
+        for (int k = 0; k <= n; ++k) places.emplace_back(piece.at[0] + size.cwiseProduct(Vec<3>(at(i), at(j), at(k))));
   } else if (piece.kind == Piece::Kind::triangle) {
     const Vec<3> u = piece.at[1] - piece.at[0], v = piece.at[2] - piece.at[0];
     for (int i = 0; i < n; ++i)
-      for (int j = 0; i + j < n; ++j) places.push_back(piece.at[0] + at(i + 1.0 / 3.0) * u + at(j + 1.0 / 3.0) * v);
+      for (int j = 0; i + j < n; ++j) places.emplace_back(piece.at[0] + at(i + 1.0 / 3.0) * u + at(j + 1.0 / 3.0) * v);
   } else {
-    for (int i = 0; i < n; ++i) places.push_back(piece.at[0] + at(i + 0.5) * (piece.at[1] - piece.at[0]));
+    for (int i = 0; i < n; ++i) places.emplace_back(piece.at[0] + at(i + 0.5) * (piece.at[1] - piece.at[0]));
   }
 }
 
@@ -83,7 +83,7 @@ Side summary(std::vector<double> values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 99 / 100);
   std::nth_element(values.begin(), at, values.end());
   const double p99 = *at;
-  return {*std::max_element(values.begin(), values.end()), p99, sum / static_cast<double>(values.size())};
+  return {std::ranges::max(values), p99, sum / static_cast<double>(values.size())};
 }
 
 Side surface_side(const Soup& soup, const Nearest& data) {

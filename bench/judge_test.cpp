@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "vantage/base/random.h"
+#include "vantage/geometry/ray_caster.h"
+#include "vantage/world/inside_solid.h"
 
 namespace vantage::bench {
 namespace {
@@ -34,6 +36,20 @@ Scene<3> scene_with_pole(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) {
   scene.mesh.facets = {{0, 1, 2}};
   scene.parts = {{"pole", 0, 1}};
   return scene;
+}
+
+TEST(Stations, AreFreeOutdoorsAndTheSameForAnyCount) {
+  const auto scene = std::get<Scene<3>>(make_scene("town"));
+  const RayCaster<3> caster(scene.mesh);
+  const std::vector<Vec<3>> all = stations(scene, 17), few = stations(scene, 3);
+  ASSERT_EQ(all.size(), 17U);
+  EXPECT_TRUE(std::equal(few.begin(), few.end(), all.begin()));
+  for (const Vec<3>& p : all) {
+    EXPECT_FALSE(inside_solid<3>(caster, p));
+    EXPECT_GE(caster.distance(p), 1.0);
+    EXPECT_EQ(caster.cast(p, Vec<3>::UnitZ()).range, kInfinity) << "a roof";
+    EXPECT_TRUE(scene.domain.contains(p));
+  }
 }
 
 TEST(Nearest, EqualsTryingAllPieces) {

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
+#include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "binary.h"
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 
@@ -102,11 +102,11 @@ std::string as_text(const Measured& m) {
       .dump();
 }
 
-/// A line of JSON, then the soup's bytes.
+/// A line of JSON, then the soup.
 void write(const Measured& m, const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
   file << as_text(m) << '\n';
-  file.write(reinterpret_cast<const char*>(m.output.soup.data()), static_cast<std::streamsize>(m.output.soup.size() * sizeof(Piece)));
+  put(file, m.output.soup);
   file.close();
   require(static_cast<bool>(file), path.string() + ": cannot be written");
 }
@@ -123,15 +123,15 @@ Measured read(const std::filesystem::path& path) {
   m.output.bytes = j["bytes"];
   m.output.data_to_surface = optional(j["data_to_surface"]);
   m.output.surface_to_data = optional(j["surface_to_data"]);
-  const std::size_t bytes = std::filesystem::file_size(path) - line.size() - 1;
-  m.output.soup.resize(bytes / sizeof(Piece));
-  file.read(reinterpret_cast<char*>(m.output.soup.data()), static_cast<std::streamsize>(bytes));
+  m.output.soup = get<Piece>(file);
+  require(static_cast<bool>(file), path.string() + ": cut off");
   return m;
 }
 
 /// Exit status of this program started with other arguments.
 int start(std::vector<std::string> arguments) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);
   pid_t child = 0;

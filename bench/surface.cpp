@@ -2,10 +2,10 @@
 // The surface stage beside its peers, on one cloud, in one run (docs/8-surface-bench.md):
 //   bench_surface --eta 0.1,0.2 --peers --match --growth --markdown table.md --json table.json
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 
 #include "tables.h"
 #include "vantage/base/error.h"
@@ -49,15 +49,23 @@ class TemporaryFolder {
 
 std::string spec(const std::string& name, double parameter) { return fmt::format("{}:{:.6g}", name, parameter); }
 
+/// The kind and the parameter of NAME:PARAMETER.
+std::pair<const ContenderKind*, std::string> parse_spec(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  require(colon != std::string::npos, text + ": must be NAME:PARAMETER");
+  return {&find_contender(text.substr(0, colon)), text.substr(colon + 1)};
+}
+
 /// The contenders asked for, ours first.
 std::vector<std::string> lineup(const Settings& s) {
   std::vector<std::string> specs;
-  for (const double eta : s.etas) specs.push_back(spec("vantage", eta));
+  for (const std::string& text : s.contenders) (void)parse_spec(text);  // A wrong name is told before anything is measured.
+  for (const double eta : s.etas) specs.emplace_back(spec("vantage", eta));
   specs.insert(specs.end(), s.contenders.begin(), s.contenders.end());
   if (!s.peers) return specs;
   for (const ContenderKind& kind : contenders())
     if (kind.name != "vantage")
-      for (const double parameter : kind.parameters) specs.push_back(spec(kind.name, parameter));
+      for (const double parameter : kind.parameters) specs.emplace_back(spec(kind.name, parameter));
   return specs;
 }
 
@@ -73,13 +81,13 @@ class Bench {
   [[nodiscard]] const Cloud& cloud() const { return cloud_; }
 
   /// Every contender on the standard cloud, judged.
-  std::vector<Row> quality() const {
+  [[nodiscard]] std::vector<Row> quality() const {
     const Judge judge(scene_, cloud_.scans_before(settings_.scans));
     std::vector<Row> rows;
     for (const std::string& name : lineup(settings_)) {
       rows.push_back(judged({name, settings_.scans, settings_.threads, settings_.sets}, judge));
       const Row& last = rows.back();
-      if (!settings_.match || !find_contender(name.substr(0, name.find(':'))).match || !last.measured.figures.error.empty()) continue;
+      if (!settings_.match || !parse_spec(name).first->match || !last.measured.figures.error.empty()) continue;
       Row ours = judged({spec("vantage", last.score.worst()), settings_.scans, settings_.threads, settings_.sets}, judge);
       ours.title = fmt::format("vantage at that error, η {:.3g} m", last.score.worst());
       rows.push_back(std::move(ours));
@@ -88,7 +96,7 @@ class Bench {
   }
 
   /// Ours from one scan to many, on one thread and on two.
-  std::vector<Row> growth() const {
+  [[nodiscard]] std::vector<Row> growth() const {
     std::vector<Row> rows;
     for (const int threads : {1, 2})
       for (const std::size_t scans : settings_.growth_scans) {
@@ -99,14 +107,12 @@ class Bench {
   }
 
  private:
-  Row measured(const Job& job) const {
+  [[nodiscard]] Row measured(const Job& job) const {
     fmt::print(stderr, "{}, {} scans\n", job.contender, job.scans);
-    const std::size_t colon = job.contender.find(':');
-    require(colon != std::string::npos, job.contender + ": must be NAME:PARAMETER");
-    const ContenderKind& kind = find_contender(job.contender.substr(0, colon));
-    return {job, fmt::format(fmt::runtime(kind.title), job.contender.substr(colon + 1)), measure(job, file_), {}};
+    const auto [kind, parameter] = parse_spec(job.contender);
+    return {job, fmt::format(fmt::runtime(kind->title), parameter), measure(job, file_), {}};
   }
-  Row judged(const Job& job, const Judge& judge) const {
+  [[nodiscard]] Row judged(const Job& job, const Judge& judge) const {
     Row row = measured(job);
     row.judged = row.measured.figures.error.empty();
     if (row.judged) row.score = judge.score(row.measured.output.soup);

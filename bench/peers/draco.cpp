@@ -51,21 +51,22 @@ class Draco final : public Contender {
   }
 
  private:
-  /// Leaves one of the points that Draco's quantiser (rounding to 2^bits - 1 steps of the range) makes equal.
+  /// Points of Draco's lattice (2^bits - 1 steps over the range), each once.
   void merge(std::vector<Point>& points, const Point& low, float range) const {
     const float steps = static_cast<float>((1 << bits_) - 1) / range;
-    const auto key = [&](const Point& p) {
-      std::uint64_t k = 0;
-      for (std::size_t a = 0; a < 3; ++a) k = k << 21 | static_cast<std::uint64_t>(std::floor((p[a] - low[a]) * steps + 0.5F));
-      return k;
-    };
-    std::vector<std::pair<std::uint64_t, Point>> keyed;
-    for (const Point& p : points) keyed.emplace_back(key(p), p);
-    std::ranges::sort(keyed);
-    const auto rest = std::ranges::unique(keyed, {}, &std::pair<std::uint64_t, Point>::first);
-    keyed.erase(rest.begin(), rest.end());
+    std::vector<std::array<std::int32_t, 3>> nodes;
+    for (const Point& p : points) {
+      const auto node = [&](std::size_t a) { return static_cast<std::int32_t>(std::floor((p[a] - low[a]) * steps + 0.5F)); };
+      nodes.push_back({node(0), node(1), node(2)});
+    }
+    std::ranges::sort(nodes);
+    const auto rest = std::ranges::unique(nodes);
+    nodes.erase(rest.begin(), rest.end());
     points.clear();
-    for (const auto& [k, p] : keyed) points.push_back(p);
+    for (const auto& n : nodes) {
+      const auto place = [&](std::size_t a) { return low[a] + static_cast<float>(n[a]) / steps; };
+      points.push_back({place(0), place(1), place(2)});
+    }
   }
   void encode(const std::vector<Point>& points, const Point& low, float range) {
     draco::PointCloudBuilder builder;

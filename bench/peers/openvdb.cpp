@@ -72,16 +72,19 @@ class Tsdf final : public Contender {
     quads_.clear();
     openvdb::tools::volumeToMesh(*distance_, points_, triangles, quads_, 0.0, 0.0);
   }
-  /// All corners lie between voxels that rays have met: the sheet behind the band is nobody's surface.
-  bool observed(const openvdb::Vec4I& quad) const {
-    const auto weight = weight_->getConstAccessor();
+  /// A quad stands across the lattice edge that its four corners' cells share. True when rays have met both ends of it: the sheet behind the band,
+  /// where the field meets its background, is nobody's surface.
+  [[nodiscard]] bool observed(const openvdb::Vec4I& quad) const {
+    openvdb::Coord low = openvdb::Coord::max(), high = openvdb::Coord::min();
     for (int c = 0; c < 4; ++c) {
-      const openvdb::Vec3s& p = points_[quad[c]];
-      const openvdb::Coord low = openvdb::Coord::floor(p);
-      for (int i = 0; i < 8; ++i)
-        if (weight.getValue(low.offsetBy(i & 1, i >> 1 & 1, i >> 2)) == 0.0F) return false;
+      const openvdb::Coord cell = openvdb::Coord::floor(points_[quad[c]]);
+      low.minComponent(cell);
+      high.maxComponent(cell);
     }
-    return true;
+    openvdb::Coord end = high;  // All corners are in the cells around the edge from `high`, along the axis in which they agree.
+    for (int a = 0; a < 3; ++a)
+      if (low[a] == high[a]) ++end[a];
+    return weight_->tree().getValue(high) > 0.0F && weight_->tree().getValue(end) > 0.0F;
   }
 
   double voxel_;
