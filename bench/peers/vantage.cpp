@@ -23,7 +23,7 @@ class Tree final : public Contender {
   Tree(double eta, bool at_once) : options_(surface_options()), at_once_(at_once) { options_.eta = eta; }
 
   void build(const Cloud& cloud, std::size_t scans) override {
-    tree_.emplace(cloud.domain, options_);
+    tree_ = std::make_unique<HausdorffTree<3>>(cloud.domain, options_);
     if (at_once_) {
       tree_->insert(cloud.scans_before(scans));
     } else {
@@ -52,15 +52,18 @@ class Tree final : public Contender {
  private:
   SurfaceOptions options_;
   bool at_once_;
-  std::optional<HausdorffTree<3>> tree_;
+  std::unique_ptr<HausdorffTree<3>> tree_;
 };
 
 }  // namespace
 
 void set_surface_option(const std::string& text) {
   const std::size_t equals = text.find('=');
-  for (Option& option : list_options(surface_options()))
-    if (equals != std::string::npos && option.name == text.substr(0, equals)) return option.parse(text.substr(equals + 1), "surface." + option.name);
+  for (Option& option : list_options(surface_options())) {
+    if (equals == std::string::npos || option.name != text.substr(0, equals)) continue;
+    option.parse(text.substr(equals + 1), "surface." + option.name);
+    return;
+  }
   require(false, fmt::format("--set {}: must be option=value with an option of the surface stage", text));
 }
 
