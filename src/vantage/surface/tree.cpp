@@ -47,9 +47,15 @@ struct Combined {
   }
 };
 
+/// Of the sites below a node, most of them from what inner nodes know.
 template <int Dim>
-std::unique_ptr<Moments<Dim>> moments_if_large(GatheredSites<Dim>& sites, const Cell<Dim>& cell) {
-  return sites.size() < kProofPoints ? nullptr : std::make_unique<Moments<Dim>>(moments<Dim>(sites.all(), cell.low, cell.bits));
+Moments<Dim> moments_below(const Node<Dim>& node, const Cell<Dim>& cell) {
+  if (node.leaf) return moments<Dim>(node.leaf->sites, cell.low, cell.bits);
+  Moments<Dim> sum;
+  if (!node.inner) return sum;
+  if (node.inner->moments) return *node.inner->moments;
+  for (int c = 0; c < Cell<Dim>::kChildren; ++c) sum.add(moments_below<Dim>(node.inner->children[c], cell.child(c)));
+  return sum;
 }
 
 template <int Dim>
@@ -120,7 +126,8 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
   if (inner.moments && all_new) {
     inner.moments->add(moments<Dim>(sites, cell.low, cell.bits));
   } else {
-    inner.moments = moments_if_large(all, cell);
+    inner.moments.reset();
+    inner.moments = std::make_unique<Moments<Dim>>(moments_below<Dim>(node, cell));
   }
   Node<Dim> whole;
   if (set_leaf(whole, cell, all, inner.moments.get())) {  // Prune.
@@ -166,7 +173,8 @@ Change<Dim> Tree<Dim>::build(Node<Dim>& node, const Cell<Dim>& cell, std::span<c
   change.points_read = static_cast<std::int64_t>(sites.size());
   GatheredSites<Dim> all{SiteView<Dim>(sites)};
   std::unique_ptr<Proof<Dim>> proof = prove(all.view(), cell);
-  std::unique_ptr<Moments<Dim>> sums = proof ? nullptr : moments_if_large(all, cell);
+  std::unique_ptr<Moments<Dim>> sums;
+  if (!proof && sites.size() > kFewSites) sums = std::make_unique<Moments<Dim>>(moments<Dim>(sites, cell.low, cell.bits));
   if (!proof && set_leaf(node, cell, all, sums.get())) {
     change.changed = bounds(node);
     return change;
