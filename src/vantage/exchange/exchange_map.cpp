@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "vantage/base/error.h"
+#include "vantage/exchange/published.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
 
@@ -25,25 +26,29 @@ float rounded_up(double value) {
   return static_cast<double>(near) >= value ? near : std::nextafter(near, std::numeric_limits<float>::infinity());
 }
 
-/// The parts of `leaves` that were not in `seen`, which learns them.
+/// Leaves of one lattice that were met before.
 template <int Dim>
-Leaves<Dim> unseen(const Leaves<Dim>& leaves, double spacing, std::set<std::pair<double, Site<Dim>>>& sites,
-                   std::set<std::tuple<double, int, Site<Dim>, int, std::array<std::int32_t, Dim>>>& planes) {
-  Leaves<Dim> fresh;
-  for (const PlaneLeaf<Dim>& plane : leaves.planes)
-    if (planes.insert({spacing, plane.level, plane.cell, plane.axis, plane.height}).second) fresh.planes.push_back(plane);
-  for (const SiteLeaf<Dim>& leaf : leaves.sites) {
-    SiteLeaf<Dim> rest{leaf.cell, 0};
-    for (const unsigned center : {0U, 1U}) {
-      if ((leaf.sites >> center & 1U) == 0) continue;
-      Site<Dim> number = leaf.cell;
-      for (std::uint32_t& n : number) n = 2 * n + center;
-      if (sites.insert({spacing, number}).second) rest.sites |= static_cast<std::uint8_t>(1U << center);
+class Seen {
+ public:
+  /// What of `leaves` is new.
+  [[nodiscard]] Leaves<Dim> unseen(const Leaves<Dim>& leaves) {
+    Leaves<Dim> fresh;
+    for (const PlaneLeaf<Dim>& plane : leaves.planes)
+      if (planes_.insert({plane.level, plane.cell, plane.axis, plane.height}).second) fresh.planes.push_back(plane);
+    for (const SiteLeaf<Dim>& leaf : leaves.sites) {
+      SiteLeaf<Dim> rest{leaf.cell, 0};
+      for (const unsigned center : {0U, 1U})
+        if ((leaf.sites >> center & 1U) != 0 && sites_.insert(site_number<Dim>(leaf.cell, center != 0), 0))
+          rest.sites |= static_cast<std::uint8_t>(1U << center);
+      if (rest.sites != 0) fresh.sites.push_back(rest);
     }
-    if (rest.sites != 0) fresh.sites.push_back(rest);
+    return fresh;
   }
-  return fresh;
-}
+
+ private:
+  CellTable<Dim> sites_;
+  std::set<std::tuple<int, Site<Dim>, int, std::array<std::int32_t, Dim>>> planes_;
+};
 
 }  // namespace
 
@@ -131,11 +136,10 @@ MapCertificate certificate(const ExchangeMap& map) {
 template <int Dim>
 std::vector<Patch<Dim>> map_patches(const ExchangeMap& map, std::string_view where) {
   std::vector<Patch<Dim>> all;
-  std::set<std::pair<double, Site<Dim>>> sites;
-  std::set<std::tuple<double, int, Site<Dim>, int, std::array<std::int32_t, Dim>>> planes;
+  std::map<double, Seen<Dim>> seen;  // By the spacing.
   for (const ExchangeMap::Entry& entry : map.entries()) {
     const Delta& delta = entry.delta;
-    const Leaves<Dim> fresh = unseen<Dim>(decoded<Dim>(delta, where), delta.spacing, sites, planes);
+    const Leaves<Dim> fresh = seen[delta.spacing].unseen(decoded<Dim>(delta, where));
     for (Patch<Dim>& patch : patches<Dim>({delta.spacing}, fresh)) {
       patch.data_to_surface = rounded_up(delta.data_to_surface);
       patch.surface_to_data = rounded_up(delta.surface_to_data);

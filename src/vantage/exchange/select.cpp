@@ -136,25 +136,6 @@ std::vector<Candidate<Dim>> search_planes(const CloudCells<Dim>& cloud, const Pu
   return all;
 }
 
-/// Largest distance of a site to the points, each of which is served by the sites around it.
-template <int Dim>
-double farthest_site(const ExchangeLattice<Dim>& lattice, std::span<const SiteLeaf<Dim>> leaves, const CloudCells<Dim>& cloud, double reach) {
-  std::vector<double> largest(leaves.size(), 0.0);
-  parallel_for(leaves.size(), kChunk, [&](std::size_t i) {
-    std::vector<std::size_t> around;
-    for (const bool center : {false, true}) {
-      if ((leaves[i].sites >> (center ? 1U : 0U) & 1U) == 0) continue;
-      const Vec<Dim> site = lattice.site(leaves[i].cell, center);
-      around.clear();
-      cloud.gather(Box<Dim>{site, site}.grown(reach), around);
-      double best = kInfinity;
-      for (const std::size_t p : around) best = std::min(best, (cloud.points()[p] - site).norm());
-      largest[i] = std::max(largest[i], best);
-    }
-  });
-  return leaves.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
-}
-
 }  // namespace
 
 template <int Dim>
@@ -162,31 +143,31 @@ Novelty<Dim> select_leaves(const CloudCells<Dim>& cloud, Published<Dim>& publish
   const std::vector<Vec<Dim>>& points = cloud.points();
   const ExchangeLattice<Dim>& lattice = published.lattice();
   Novelty<Dim> out;
-  std::vector<std::uint8_t> is_new(points.size(), 0);
-  const auto mark_new = [&] { parallel_for(points.size(), kChunk, [&](std::size_t i) { is_new[i] = published.distance(points[i]) ? 0 : 1; }); };
-  mark_new();
+  std::vector<double> apart(points.size(), kInfinity);  // To what was published, by now; infinite: beyond the reach.
+  const auto measure_rest = [&] {
+    parallel_for(points.size(), kChunk, [&](std::size_t i) {
+      if (!(apart[i] < kInfinity)) apart[i] = published.distance(points[i]).value_or(kInfinity);
+    });
+  };
+  measure_rest();
+  std::vector<std::uint8_t> is_new(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) is_new[i] = apart[i] < kInfinity ? 0 : 1;
   out.new_points = static_cast<std::size_t>(std::count(is_new.begin(), is_new.end(), 1));
   for (const Candidate<Dim>& found : search_planes<Dim>(cloud, published, is_new)) {
     out.leaves.planes.push_back(found.plane);
     out.surface_to_data = std::max(out.surface_to_data, found.surface_to_data);
   }
   published.add(out.leaves);
-  mark_new();
+  measure_rest();
   std::vector<Vec<Dim>> rest;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (is_new[i] != 0) rest.push_back(points[i]);
-  const double inner = published.reach() * kBelow;
-  out.leaves.sites = cover<Dim>(lattice, rest, inner);
+    if (!(apart[i] < kInfinity)) rest.push_back(points[i]);
+  Cover<Dim> sites = cover<Dim>(lattice, rest, published.reach() * kBelow);
+  out.leaves.sites = std::move(sites.leaves);
+  out.surface_to_data = std::max(out.surface_to_data, sites.farthest);
   published.add(Leaves<Dim>{{}, out.leaves.sites});
-  out.surface_to_data = std::max(out.surface_to_data, farthest_site<Dim>(lattice, out.leaves.sites, cloud, inner));
-  out.data_to_surface = parallel_reduce(
-      points.size(), kChunk, 0.0,
-      [&](std::size_t begin, std::size_t end) {
-        double most = 0.0;
-        for (std::size_t i = begin; i < end; ++i) most = std::max(most, published.distance(points[i]).value_or(kInfinity));
-        return most;
-      },
-      [](double& all, double part) { all = std::max(all, part); });
+  measure_rest();
+  for (const double distance : apart) out.data_to_surface = std::max(out.data_to_surface, distance);
   double size = 0.0;
   for (const Vec<Dim>& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
   const double slack = kRounding * size;
