@@ -39,12 +39,17 @@ class CellTable {
   std::vector<Slot> slots_;
   std::size_t size_ = 0;
 
+  [[nodiscard]] static bool is_same(const Site<Dim>& a, const Site<Dim>& b) {
+    std::uint32_t differ = 0;
+    for (std::size_t k = 0; k < Dim; ++k) differ |= a[k] ^ b[k];
+    return differ == 0;
+  }
   /// Where `key` is, or would go.
   [[nodiscard]] std::size_t place(const Site<Dim>& key) const {
     std::uint64_t hash = 0;
     for (const std::uint32_t k : key) hash = (hash ^ k) * 0x9e3779b97f4a7c15ULL, hash ^= hash >> 29U;
     for (std::size_t at = hash & (slots_.size() - 1);; at = (at + 1) & (slots_.size() - 1))
-      if (slots_[at].value == kFree || slots_[at].key == key) return at;
+      if (slots_[at].value == kFree || is_same(slots_[at].key, key)) return at;
   }
   void rehash(std::size_t wanted) {
     std::size_t capacity = 16;

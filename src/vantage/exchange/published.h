@@ -21,13 +21,24 @@ template <int Dim, class Visit>
 void each_site_near(const ExchangeLattice<Dim>& lattice, const Vec<Dim>& p, double reach, Visit&& visit) {
   const std::optional<Site<Dim>> cell = lattice.cell(p);
   if (!cell) return;
+  const Vec<Dim> inside = (p - lattice.corner(*cell, 0)) / lattice.spacing;
+  const double limit2 = (1.0 + 1e-6) * (reach / lattice.spacing) * (reach / lattice.spacing);
   for (const bool center : {false, true}) {
     Site<Dim> first = *cell;
-    if (center) {
-      const Vec<Dim> middle = lattice.site(*cell, true);
-      for (int a = 0; a < Dim; ++a) first[static_cast<std::size_t>(a)] -= p[a] < middle[a] ? 1U : 0U;
+    std::array<std::array<double, 2>, Dim> apart2;  // Along each axis, to the lower and the upper of two sites, in cells, squared.
+    for (unsigned a = 0; a < Dim; ++a) {
+      double apart = inside[a];
+      if (center) {
+        const bool low = apart < 0.5;
+        first[a] -= low ? 1U : 0U;
+        apart += low ? 0.5 : -0.5;
+      }
+      apart2[a] = {apart * apart, (apart - 1.0) * (apart - 1.0)};
     }
     for (unsigned k = 0; k < (1U << Dim); ++k) {
+      double distance2 = 0.0;
+      for (unsigned a = 0; a < Dim; ++a) distance2 += apart2[a][k >> a & 1U];
+      if (distance2 > limit2) continue;
       Site<Dim> at = first;
       for (unsigned a = 0; a < Dim; ++a) at[a] += k >> a & 1U;
       const double distance = (lattice.site(at, center) - p).norm();
