@@ -42,7 +42,7 @@ class PlaneSearch {
 
  private:
   /// Cells with new points that a plane must serve: fewer are cheaper as sites.
-  static constexpr std::size_t kWorth = 2 * Dim - 1;
+  static constexpr std::size_t kWorth = Dim;
   const CloudCells<Dim>& cloud_;
   const ExchangeLattice<Dim>& lattice_;
   double reach_;
@@ -61,9 +61,10 @@ class PlaneSearch {
   }
 
   [[nodiscard]] std::optional<Candidate<Dim>> fit(const CellRange& range, int level) const {
-    // Discs around the points cannot cover the plane if they are too few: the plane is at least about half the cell's face.
-    const double face = std::pow(lattice_.side(level), Dim - 1), disc = (Dim - 1) * std::pow(1.6 * reach_, Dim - 1);
-    if (static_cast<double>(range.size()) < 0.4 * face / disc || range.size() < Dim) return std::nullopt;
+    // Too few points for the discs around them to cover two fifths of the cell's face: the plane is hardly smaller.
+    double discs = 0.4;
+    for (int a = 1; a < Dim; ++a) discs *= lattice_.side(level) / (2.0 * reach_);
+    if (static_cast<double>(range.size()) < discs || range.size() < Dim) return std::nullopt;
     const Site<Dim> cell = cloud_.cell_of(range, level);
     std::vector<std::size_t> members(range.size()), around;
     for (std::size_t i = 0; i < members.size(); ++i) members[i] = range.begin + i;
