@@ -61,4 +61,19 @@ class CellTable {
   }
 };
 
+/// Calls `visit(cell)` for all cells from `low` to `high`, the first axis fastest.
+template <int Dim, class Visit>
+void each_cell_between(const Site<Dim>& low, const Site<Dim>& high, Visit&& visit) {
+  for (Site<Dim> at = low;;) {
+    visit(at);
+    std::size_t a = 0;
+    while (a < Dim && at[a] == high[a]) {
+      at[a] = low[a];
+      ++a;
+    }
+    if (a == Dim) return;
+    ++at[a];
+  }
+}
+
 }  // namespace vantage

@@ -35,6 +35,7 @@ CloudCells<Dim>::CloudCells(const ExchangeLattice<Dim>& lattice, std::span<const
   points_.reserve(all.size());
   cells_.reserve(all.size());
   for (const auto& [cell, p] : all) {
+    first_.insert(cell, static_cast<std::uint32_t>(points_.size()));
     cells_.push_back(cell);
     points_.push_back(p);
   }
@@ -54,6 +55,20 @@ std::size_t CloudCells<Dim>::end_of(const Site<Dim>& at, int level, const CellRa
   const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(range.begin), last = cells_.begin() + static_cast<std::ptrdiff_t>(range.end);
   return static_cast<std::size_t>(
       std::partition_point(first, last, [&](const Site<Dim>& cell) { return is_same_cell<Dim>(cell, corner, level); }) - cells_.begin());
+}
+
+template <int Dim>
+bool CloudCells<Dim>::is_near(const Vec<Dim>& p, double reach) const {
+  const auto low = lattice_.cell(p.array() - reach), high = lattice_.cell(p.array() + reach);
+  if (!low || !high) return false;
+  bool found = false;
+  each_cell_between<Dim>(*low, *high, [&](const Site<Dim>& cell) {
+    if (found) return;
+    const auto first = first_.find(cell);
+    if (!first) return;
+    for (std::size_t i = *first; i < cells_.size() && cells_[i] == cell && !found; ++i) found = (points_[i] - p).norm() <= reach;
+  });
+  return found;
 }
 
 template <int Dim>

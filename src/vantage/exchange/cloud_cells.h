@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "vantage/exchange/cell_table.h"
 #include "vantage/exchange/leaves.h"
 
 namespace vantage {
@@ -35,6 +36,8 @@ class CloudCells {
       visit(part);
     }
   }
+  /// Is there a point within `reach` of p?
+  [[nodiscard]] bool is_near(const Vec<Dim>& p, double reach) const;
   /// Appends the numbers of the points in `box`, in order.
   void gather(const Box<Dim>& box, std::vector<std::size_t>& out) const;
 
@@ -42,6 +45,7 @@ class CloudCells {
   ExchangeLattice<Dim> lattice_;
   std::vector<Vec<Dim>> points_;
   std::vector<Site<Dim>> cells_;
+  CellTable<Dim> first_;  ///< Number of the first point of each cell of level 0.
   std::size_t left_out_ = 0;
 
   /// Where the points of cell `at` end, which begin where `range` does.

@@ -15,6 +15,9 @@
 namespace vantage {
 namespace {
 
+/// A leaf takes a bit at least, and no prediction is surer than 1 - 2^-12: so many leaves fit into a byte at most.
+constexpr std::size_t kMostPerByte = 8 * 2840;
+
 template <int Dim>
 using Cells = std::vector<LevelCell<Dim>>;
 
@@ -231,6 +234,8 @@ Leaves<Dim> decode_leaves(std::string_view bytes, const LeafCounts& counts, std:
     require(bytes.empty(), "a code without leaves", where);
     return leaves;
   }
+  require((counts.planes + counts.cells) / kMostPerByte <= bytes.size() + 8,
+          fmt::format("{} leaves in {} bytes: no code is so short", counts.planes + counts.cells, bytes.size()), where);
   BitDecoder coder(bytes);
   leaves = TreeCode<Dim, BitDecoder>(coder, nullptr, counts, where).run();
   require(coder.unread() == 0, fmt::format("{} bytes behind the leaves", coder.unread()), where);

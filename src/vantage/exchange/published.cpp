@@ -34,18 +34,14 @@ std::optional<double> Published<Dim>::distance(const Vec<Dim>& p) const {
   for (const auto& table : tables_)
     for (std::size_t level = PlaneLeaf<Dim>::kLowest; level < kLevels; ++level) {
       if (table[level].size() == 0) continue;
-      Site<Dim> first, at;
-      for (std::size_t a = 0; a < Dim; ++a) first[a] = at[a] = (*low)[a] >> level;
-      for (;;) {
-        if (const auto found = table[level].find(at)) best = std::min(best, vantage::distance(planes_[*found], p));
-        std::size_t a = 0;
-        while (a < Dim && at[a] == (*high)[a] >> level) {
-          at[a] = first[a];
-          ++a;
-        }
-        if (a == Dim) break;
-        ++at[a];
+      Site<Dim> first = *low, last = *high;
+      for (std::size_t a = 0; a < Dim; ++a) {
+        first[a] >>= level;
+        last[a] >>= level;
       }
+      each_cell_between<Dim>(first, last, [&](const Site<Dim>& cell) {
+        if (const auto found = table[level].find(cell)) best = std::min(best, vantage::distance(planes_[*found], p));
+      });
     }
   return best <= reach_ ? std::optional(best) : std::nullopt;
 }

@@ -74,7 +74,7 @@ class PlaneSearch {
       if (piece.region.count == 0) return std::nullopt;
       const Patch<Dim> patch = piece_patch(piece);
       const auto carries = [&](std::size_t i) { return distance(patch, cloud_.points()[i]) <= reach_ * kBelow; };
-      if (is_worth(range, carries)) {
+      if (has_near_corners(patch) && is_worth(range, carries)) {
         around.clear();
         cloud_.gather(lattice_.box(cell, level).grown(reach_), around);
         if (const auto radius = covering_radius(piece.region, feet(piece.frame, around), reach_ * kBelow)) return Candidate<Dim>{plane, *radius};
@@ -84,6 +84,12 @@ class PlaneSearch {
       if (members.size() == before) return std::nullopt;
     }
     return std::nullopt;
+  }
+
+  /// Is there a point near each corner? Most planes that fail do so here, at little cost.
+  [[nodiscard]] bool has_near_corners(const Patch<Dim>& patch) const {
+    const auto corners = patch.corners();
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec<Dim>& corner) { return cloud_.is_near(corner, reach_); });
   }
 
   /// The PCA plane through points of a cell, rounded to heights.
