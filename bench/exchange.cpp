@@ -121,7 +121,7 @@ Size octomap_size(const std::vector<Points>& scans, double eta, bool solid) {
 /// The steep facets of a scene, and places spread over them.
 struct Facade {
   std::vector<Patch<3>> facets;
-  Points samples;          ///< Centres of about kSample-sized pieces.
+  Points samples;  ///< Centres of about kSample-sized pieces.
   std::vector<double> areas;
 };
 
@@ -157,7 +157,8 @@ template <class Visit>
 void around(const Vec<3>& p, double side, Visit&& visit) {
   for (int k = 0; k < 27; ++k) {
     std::uint64_t key = 0;
-    for (int a = 0, rest = k; a < 3; ++a, rest /= 3) key = key << 21U | (static_cast<std::uint64_t>(std::floor(p[a] / side) + rest % 3 - 1 + (1 << 20)) & 0x1fffffU);
+    for (int a = 0, rest = k; a < 3; ++a, rest /= 3)
+      key = key << 21U | (static_cast<std::uint64_t>(std::floor(p[a] / side) + rest % 3 - 1 + (1 << 20)) & 0x1fffffU);
     visit(key, k == 13);
   }
 }
@@ -182,7 +183,8 @@ std::vector<Points> near_facade(const std::vector<Points>& scans, const Facade& 
     for (const Vec<3>& p : scan)
       around(p, kSeen, [&](std::uint64_t key, bool own) {
         const auto found = own ? facets.find(key) : facets.end();
-        if (found != facets.end() && std::any_of(found->second.begin(), found->second.end(), [&](std::size_t f) { return distance(facade.facets[f], p) <= eta; }))
+        if (found != facets.end() &&
+            std::any_of(found->second.begin(), found->second.end(), [&](std::size_t f) { return distance(facade.facets[f], p) <= eta; }))
           out.back().push_back(p);
       });
   }
@@ -192,7 +194,10 @@ std::vector<Points> near_facade(const std::vector<Points>& scans, const Facade& 
 double seen_area(const std::vector<Points>& scans, const Facade& facade) {
   Cells cells;
   for (const Points& scan : scans)
-    for (const Vec<3>& p : scan) around(p, kSeen, [&](std::uint64_t key, bool own) { if (own) cells.insert(key); });
+    for (const Vec<3>& p : scan)
+      around(p, kSeen, [&](std::uint64_t key, bool own) {
+        if (own) cells.insert(key);
+      });
   double area = 0.0;
   for (std::size_t i = 0; i < facade.samples.size(); ++i) {
     bool seen = false;
@@ -246,8 +251,8 @@ int main(int argc, char** argv) {
     std::vector<Points> scans;
     const std::vector<std::filesystem::path> paths(clouds.begin(), clouds.end());
     for (AnyPoints& scan : read_scans(paths)) scans.push_back(std::get<Points>(std::move(scan)));
-    fmt::print("{} scans, eta {} m, one thread\n{:<14} {:<26} {:>10} {:>8} {:>8} {:>9} {:>8} {:>8} {:>7}\n", scans.size(), eta, "", "", "bytes", "a point",
-               "kB/scan", "leaves", "error m", "seconds", "B/m2");
+    fmt::print("{} scans, eta {} m, one thread\n{:<14} {:<26} {:>10} {:>8} {:>8} {:>9} {:>8} {:>8} {:>7}\n", scans.size(), eta, "", "", "bytes",
+               "a point", "kB/scan", "leaves", "error m", "seconds", "B/m2");
     rows("whole", {joined(scans)}, eta, 0.0);
     rows("scan by scan", scans, eta, 0.0);
     if (!scene.empty()) {

@@ -34,11 +34,13 @@ int merge_command(const Arguments& arguments) {
   if (!parser.parse(arguments)) return 0;
   vantage::require(!maps.empty(), "MAP is missing");
   const bool surface = path.ends_with(".ply") || path.ends_with(".glb");
-  vantage::require(surface || path.ends_with(".vmap"), path.empty() ? "FILE is missing" : fmt::format("{}: must end in .vmap, .ply or .glb", path), "-o");
+  vantage::require(surface || path.ends_with(".vmap"), path.empty() ? "FILE is missing" : fmt::format("{}: must end in .vmap, .ply or .glb", path),
+                   "-o");
   vantage::ExchangeMap all;
   for (const std::string& name : maps) {
     const vantage::ExchangeMap map = vantage::read_map(name);
-    vantage::require(all.empty() || map.empty() || map.dim() == all.dim(), fmt::format("a map of {} dimensions beside one of {}", map.dim(), all.dim()), name);
+    vantage::require(all.empty() || map.empty() || map.dim() == all.dim(),
+                     fmt::format("a map of {} dimensions beside one of {}", map.dim(), all.dim()), name);
     all.merge(map);
   }
   if (!without.empty()) all = all.without(vantage::read_map(without));

@@ -50,6 +50,7 @@ int publish_command(const Arguments& arguments) {
   const std::vector<std::filesystem::path> paths(clouds.begin(), clouds.end());
   const vantage::ExchangeMap map = vantage::published_scans(vantage::read_scans(paths), source, options.eta, before);
   vantage::write_file(path, map.bytes());
-  if (!quiet) fmt::print("{}", json ? vantage::as_text(describe_map(map, path)) : fmt::format("{}: {}\n", path, map_sentence(describe_map(map, path))));
+  if (!quiet)
+    fmt::print("{}", json ? vantage::as_text(describe_map(map, path)) : fmt::format("{}: {}\n", path, map_sentence(describe_map(map, path))));
   return 0;
 }

@@ -87,7 +87,8 @@ std::string map_sentence(const Json& m) {
   if (count("dim") == 2) out += fmt::format("{} segments, ", grouped(count("segments")));
   out += fmt::format("{} points, error at most {:.3g} m", grouped(count("points")),
                      std::max(number(m["data_to_surface_m"]), number(m["surface_to_data_m"])));
-  if (count("missing_deltas") > 0) out += fmt::format(", {} earlier {} missing", grouped(count("missing_deltas")), count("missing_deltas") == 1 ? "delta" : "deltas");
+  if (count("missing_deltas") > 0)
+    out += fmt::format(", {} earlier {} missing", grouped(count("missing_deltas")), count("missing_deltas") == 1 ? "delta" : "deltas");
   return out + fmt::format("; sha256 {:.16}", m["sha256"].get<std::string>());
 }
 

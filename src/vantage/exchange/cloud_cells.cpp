@@ -53,8 +53,8 @@ std::size_t CloudCells<Dim>::end_of(const Site<Dim>& at, int level, const CellRa
   Site<Dim> corner = at;
   for (std::uint32_t& a : corner) a <<= level;
   const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(range.begin), last = cells_.begin() + static_cast<std::ptrdiff_t>(range.end);
-  return static_cast<std::size_t>(
-      std::partition_point(first, last, [&](const Site<Dim>& cell) { return is_same_cell<Dim>(cell, corner, level); }) - cells_.begin());
+  return static_cast<std::size_t>(std::partition_point(first, last, [&](const Site<Dim>& cell) { return is_same_cell<Dim>(cell, corner, level); }) -
+                                  cells_.begin());
 }
 
 template <int Dim>

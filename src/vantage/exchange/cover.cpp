@@ -30,7 +30,8 @@ struct Candidates {
     std::vector<Pair> pairs;
     point_start.assign(1, 0);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-      each_site_near(lattice, points[i], reach, [&](const Site<Dim>& site, double distance) { pairs.push_back({site, i, static_cast<float>(distance)}); });
+      each_site_near(lattice, points[i], reach,
+                     [&](const Site<Dim>& site, double distance) { pairs.push_back({site, i, static_cast<float>(distance)}); });
       point_start.push_back(static_cast<std::uint32_t>(pairs.size()));
     }
     std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return std::tie(a.site, a.point) < std::tie(b.site, b.point); });

@@ -26,8 +26,8 @@ void check(const Delta& d, std::string_view where) {
           where);
   require(d.tolerance >= kFinest && d.tolerance <= kCoarsest, fmt::format("tolerance = {}: must be {} .. {} [m]", d.tolerance, kFinest, kCoarsest),
           where);
-  require(d.spacing >= kFinest && d.spacing <= 4.0 * kCoarsest, fmt::format("spacing = {}: must be {} .. {} [m]", d.spacing, kFinest, 4.0 * kCoarsest),
-          where);
+  require(d.spacing >= kFinest && d.spacing <= 4.0 * kCoarsest,
+          fmt::format("spacing = {}: must be {} .. {} [m]", d.spacing, kFinest, 4.0 * kCoarsest), where);
   for (const double error : {d.data_to_surface, d.surface_to_data})
     require(error >= 0.0 && error <= d.tolerance, fmt::format("certified error = {}: must be 0 .. {} [m], the tolerance", error, d.tolerance), where);
   require(d.new_points <= d.points, fmt::format("{} new points of {}", d.new_points, d.points), where);

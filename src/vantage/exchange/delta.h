@@ -13,10 +13,10 @@ namespace vantage {
 /// same delta hold the same bytes.
 struct Delta {
   int dim = 3;
-  std::string source;           ///< Who made the scan: 1 to 64 printable characters.
-  std::uint32_t number = 0;     ///< Of the scan, counted by its source from 0.
-  double tolerance = 0.0;       ///< No certified error is larger [m].
-  double spacing = 0.0;         ///< Of the lattice (ExchangeLattice) [m].
+  std::string source;            ///< Who made the scan: 1 to 64 printable characters.
+  std::uint32_t number = 0;      ///< Of the scan, counted by its source from 0.
+  double tolerance = 0.0;        ///< No certified error is larger [m].
+  double spacing = 0.0;          ///< Of the lattice (ExchangeLattice) [m].
   double data_to_surface = 0.0;  ///< Certified: every point of the scan is so near to a patch of this delta or one of lower number of its source [m].
   double surface_to_data = 0.0;  ///< Certified: every place of this delta's patches is so near to a point of the scan [m].
   std::uint64_t points = 0;      ///< Finite points of the scan, each once.

@@ -106,8 +106,8 @@ ExchangeMap parse_map(std::string_view bytes, std::string_view where) {
     require(bytes.size() - at >= kLength + kChecksum, fmt::format("the file ends before delta {} of {}", i + 1, count), here(bytes.size()));
     const std::size_t size = get<std::uint32_t>(bytes, at);
     require(size <= bytes.size() - at - kLength - kChecksum, fmt::format("delta {} of {} bytes exceeds the file", i + 1, size), here(at));
-    require(checksum(bytes.substr(at, kLength + size)) == get<std::uint32_t>(bytes, at + kLength + size), fmt::format("wrong checksum of delta {}", i + 1),
-            here(at + kLength + size));
+    require(checksum(bytes.substr(at, kLength + size)) == get<std::uint32_t>(bytes, at + kLength + size),
+            fmt::format("wrong checksum of delta {}", i + 1), here(at + kLength + size));
     const std::string_view body = bytes.substr(at + kLength, size);
     ExchangeMap::Entry entry{sha256(body), std::string(body), parse_delta(body, where, at + kLength)};
     require(map.empty() || order(map.entries_.back()) < order(entry), fmt::format("delta {} is out of order", i + 1), here(at));

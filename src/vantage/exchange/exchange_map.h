@@ -56,7 +56,8 @@ struct MapCertificate {
 };
 [[nodiscard]] MapCertificate certificate(const ExchangeMap& map);
 
-/// All patches of the map, those of the same leaf once, with the errors of their deltas. `Dim` is the map's. Throws bad_input for a code that is none.
+/// All patches of the map, those of the same leaf once, with the errors of their deltas. `Dim` is the map's. Throws bad_input for a code that is
+/// none.
 template <int Dim>
 [[nodiscard]] std::vector<Patch<Dim>> map_patches(const ExchangeMap& map, std::string_view where);
 

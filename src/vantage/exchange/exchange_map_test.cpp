@@ -19,7 +19,8 @@ const std::vector<Delta>& deltas() {
     for (const char* source : {"bus", "car", "drone"}) {
       Publisher<3> publisher(source, 0.3);
       for (std::uint64_t scan = 0; scan < 3; ++scan)
-        out.push_back(publisher.publish(corner_scan<3>(60, Vec<3>::Constant(0.4 * static_cast<double>(scan)), scan + 7 * static_cast<std::uint64_t>(*source))));
+        out.push_back(
+            publisher.publish(corner_scan<3>(60, Vec<3>::Constant(0.4 * static_cast<double>(scan)), scan + 7 * static_cast<std::uint64_t>(*source))));
     }
     return out;
   }();
@@ -52,8 +53,8 @@ RC_GTEST_PROP(ExchangeMap, MergingIsAUnionOfSets, (const Numbers& x, const Numbe
   RC_ASSERT(map_of(both).bytes() == merged(a, b).bytes());
 }
 
-/// Vehicles meet in any order, send all, only what the other lacks, or only the newest delta, lose some, and hear others twice. When the news has gone round, all
-/// hold the same bytes.
+/// Vehicles meet in any order, send all, only what the other lacks, or only the newest delta, lose some, and hear others twice. When the news has
+/// gone round, all hold the same bytes.
 RC_GTEST_PROP(ExchangeMap, AnySequenceOfExchangesEndsInEqualHashes, (const std::vector<std::array<std::uint8_t, 4>>& meetings)) {
   std::vector<ExchangeMap> vehicles = {map_of({0, 1, 2}), map_of({3, 4, 5}), map_of({6, 7, 8})};
   for (const auto& [from, to, how, which] : meetings) {

@@ -121,7 +121,8 @@ class TreeCode {
   void check(const Cells<Dim>& cells) const {
     if constexpr (Coder::kReads) {
       const auto coded = std::count_if(cells.begin(), cells.end(), [](const auto& c) { return !c.below_plane; });
-      require(static_cast<std::size_t>(coded) <= counts_.planes + counts_.cells - out_.planes.size(), "holds more leaves than its header says", where_);
+      require(static_cast<std::size_t>(coded) <= counts_.planes + counts_.cells - out_.planes.size(), "holds more leaves than its header says",
+              where_);
     }
   }
   void check_end() const {
@@ -212,9 +213,8 @@ class TreeCode {
 
 template <int Dim>
 void sort_leaves(Leaves<Dim>& leaves) {
-  std::sort(leaves.planes.begin(), leaves.planes.end(), [](const auto& a, const auto& b) {
-    return a.level != b.level ? a.level > b.level : morton_less<Dim>(a.cell, b.cell);
-  });
+  std::sort(leaves.planes.begin(), leaves.planes.end(),
+            [](const auto& a, const auto& b) { return a.level != b.level ? a.level > b.level : morton_less<Dim>(a.cell, b.cell); });
   std::sort(leaves.sites.begin(), leaves.sites.end(), [](const auto& a, const auto& b) { return morton_less<Dim>(a.cell, b.cell); });
 }
 

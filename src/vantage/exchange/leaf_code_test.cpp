@@ -132,7 +132,8 @@ TYPED_TEST(LeafCodes, ExtendedHeightsAreTheSamePlaneElsewhere) {
     PlaneLeaf<Dim> other = known;
     other.level = PlaneLeaf<Dim>::kLowest + static_cast<int>(random.below(PlaneLeaf<Dim>::kHighest));
     for (int a = 0; a < Dim; ++a)
-      other.cell[a] = static_cast<std::uint32_t>(((std::int64_t{known.cell[a]} << known.level) >> other.level) + static_cast<std::int64_t>(random.below(3)) - 1);
+      other.cell[a] =
+          static_cast<std::uint32_t>(((std::int64_t{known.cell[a]} << known.level) >> other.level) + static_cast<std::int64_t>(random.below(3)) - 1);
     other.height = extended_heights<Dim>(known, other.cell, other.level);
     // Heights over the origin of the other cell, as plane_piece has them, differ by the rounding of each number alone.
     const PlanePiece<Dim> a = plane_piece(lattice, known), b = plane_piece(lattice, other);

@@ -9,14 +9,14 @@
 
 namespace vantage {
 
-/// The lattice on which exchanged maps live: cubic cells of side `spacing`, anchored at the world's origin, the same for every vehicle; a body-centred
-/// site at each cell's low corner and centre. In space no other lattice covers it with fewer balls (Bambah 1954): every place is within `reach` of a
-/// site. Cells are counted from -2^30, so that the dyadic cells of level l, of 2^l cells a side, have numbers >> l.
+/// The lattice on which exchanged maps live: cubic cells of side `spacing`, anchored at the world's origin, the same for every vehicle; a
+/// body-centred site at each cell's low corner and centre. In space no other lattice covers it with fewer balls (Bambah 1954): every place is within
+/// `reach` of a site. Cells are counted from -2^30, so that the dyadic cells of level l, of 2^l cells a side, have numbers >> l.
 template <int Dim>
 struct ExchangeLattice {
-  static constexpr int kDepth = 31;                   ///< Level of the root, which holds everything.
+  static constexpr int kDepth = 31;                    ///< Level of the root, which holds everything.
   static constexpr std::uint32_t kOrigin = 1U << 30U;  ///< Number of the cell whose low corner is the world's origin.
-  double spacing = 0.0;                               ///< Side of a cell [m].
+  double spacing = 0.0;                                ///< Side of a cell [m].
 
   /// The coarsest one on which no place is farther than `reach` [m] from a site.
   [[nodiscard]] static ExchangeLattice covering(double reach) { return {(1.0 - 1e-6) * 4.0 / std::sqrt(2.0 * Dim - Dim % 2) * reach}; }
@@ -54,7 +54,7 @@ struct PlaneLeaf {
 
   Site<Dim> cell{};
   std::int32_t level = 0;
-  std::int32_t axis = 0;                  ///< Heights are along it; the normal's largest component.
+  std::int32_t axis = 0;                   ///< Heights are along it; the normal's largest component.
   std::array<std::int32_t, Dim> height{};  ///< At the low corner from the cell's low face, then what it gains across the cell along each other axis.
 
   friend bool operator==(const PlaneLeaf&, const PlaneLeaf&) = default;

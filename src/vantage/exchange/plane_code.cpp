@@ -19,7 +19,9 @@ std::uint32_t hash(std::uint32_t kind, std::uint64_t value) {
 template <int Dim>
 std::array<std::int32_t, Dim> extended_heights(const PlaneLeaf<Dim>& known, const Site<Dim>& cell, int level) {
   constexpr std::int64_t kMost = 1 << 22;
-  const auto apart = [&](int a) { return (std::int64_t{cell[static_cast<std::size_t>(a)]} << level) - (std::int64_t{known.cell[static_cast<std::size_t>(a)]} << known.level); };
+  const auto apart = [&](int a) {
+    return (std::int64_t{cell[static_cast<std::size_t>(a)]} << level) - (std::int64_t{known.cell[static_cast<std::size_t>(a)]} << known.level);
+  };
   std::int64_t gain = 0;  // From corner to corner, times 2^known.level.
   std::array<std::int32_t, Dim> out{};
   for (int i = 1; i < Dim; ++i) {
@@ -76,8 +78,8 @@ SiteContexts<Dim>::SiteContexts(const Level<Dim>& level, const LevelCell<Dim>& c
 
 template <int Dim>
 std::array<std::uint32_t, 5> SiteContexts<Dim>::corner() const {
-  return {hash(0, masks_), hash(1, exists_), hash(2, low_centers_ | low_corners_ << 3U | high_cells_ << 6U), hash(3, low_cells_ | high_cells_ << 3U | low_centers_ << 6U),
-          hash(4, std::uint64_t{exists_} << 32U ^ masks_)};
+  return {hash(0, masks_), hash(1, exists_), hash(2, low_centers_ | low_corners_ << 3U | high_cells_ << 6U),
+          hash(3, low_cells_ | high_cells_ << 3U | low_centers_ << 6U), hash(4, std::uint64_t{exists_} << 32U ^ masks_)};
 }
 
 template <int Dim>

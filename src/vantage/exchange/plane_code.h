@@ -66,7 +66,8 @@ class PlaneCode {
     }
     for (std::uint32_t k = 0; k < Dim; ++k) {
       std::int32_t& height = plane.height[k];
-      const std::int32_t difference = code_number(coder, numbers_, height - guess[k], kind << 8U | k << 4U | (kind == 4 ? static_cast<std::uint32_t>(plane.level) : 0U));
+      const std::int32_t difference =
+          code_number(coder, numbers_, height - guess[k], kind << 8U | k << 4U | (kind == 4 ? static_cast<std::uint32_t>(plane.level) : 0U));
       height = guess[k] + difference;
       if (kind < 3 && difference != 0 && kind < 2) ++kind;
     }
@@ -105,8 +106,8 @@ class SiteContexts {
 
  private:
   static constexpr int kNear = Level<Dim>::kNear;
-  std::uint64_t masks_ = 0;    ///< Known neighbours, two bits each.
-  std::uint32_t exists_ = 0;   ///< A bit a neighbour.
+  std::uint64_t masks_ = 0;                                                           ///< Known neighbours, two bits each.
+  std::uint32_t exists_ = 0;                                                          ///< A bit a neighbour.
   std::uint32_t low_centers_ = 0, low_corners_ = 0, low_cells_ = 0, high_cells_ = 0;  ///< Of those that touch the corner, or the centre.
 };
 

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-constexpr int kReach = 2047;             ///< Logarithmic odds run from -kReach to kReach, in units of 1/256.
+constexpr int kReach = 2047;  ///< Logarithmic odds run from -kReach to kReach, in units of 1/256.
 constexpr std::uint32_t kCountMask = 1023;
 constexpr std::uint32_t kMostSeen = 500;  ///< After so many bits a slot forgets at a steady pace.
 constexpr int kRateShift = 15;

@@ -47,7 +47,8 @@ std::int32_t code_number(Coder& coder, Predictor& predictor, std::int32_t number
   std::uint32_t length = 0;  // Bits below the leading one.
   while (length < 23 && bit(size >> (length + 1) != 0, 2 + length)) ++length;
   std::uint32_t value = 1;
-  for (std::uint32_t i = length; i-- > 0;) value = value << 1U | (bit((size >> i & 1U) != 0, 32 + 4 * length + (length - i <= 2 ? value & 3U : 0U)) ? 1U : 0U);
+  for (std::uint32_t i = length; i-- > 0;)
+    value = value << 1U | (bit((size >> i & 1U) != 0, 32 + 4 * length + (length - i <= 2 ? value & 3U : 0U)) ? 1U : 0U);
   return negative ? -static_cast<std::int32_t>(value) : static_cast<std::int32_t>(value);
 }
 

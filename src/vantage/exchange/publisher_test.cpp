@@ -73,6 +73,25 @@ TYPED_TEST(Publishers, EveryDeltaKeepsItsCertificateBothWays) {
   EXPECT_GT(planes, 0);
 }
 
+/// Points on faces, edges, corners and sites of the lattice, and anywhere, near the origin and far from it.
+TYPED_TEST(Publishers, TheCertificateHoldsOnTheLatticeItselfAndForAnyPoints) {
+  constexpr int Dim = TypeParam::value;
+  Random random(11);
+  for (int round = 0; round < 60; ++round) {
+    Publisher<Dim> publisher("car", 0.1);
+    const double unit = round % 3 == 0 ? 0.05 : publisher.publish({}).spacing / 4.0;
+    const double shift = round % 2 == 0 ? 0.0 : 4e6 * unit;
+    std::vector<Vec<Dim>> points(1 + random.below(80));
+    for (Vec<Dim>& p : points)
+      for (int a = 0; a < Dim; ++a) p[a] = shift + unit * static_cast<double>(random.below(a + 1 == Dim && round % 4 < 2 ? 1 : 12));
+    const Delta delta = publisher.publish(points);
+    const std::vector<Patch<Dim>> patches = vantage::patches<Dim>({delta.spacing}, decoded<Dim>(delta, "delta"));
+    for (const Vec<Dim>& p : points) EXPECT_LE(to_patches(patches, p), delta.data_to_surface);
+    EXPECT_LE(patches_to_points(patches, points, 20), delta.surface_to_data);
+    EXPECT_LE(std::max(delta.data_to_surface, delta.surface_to_data), 0.1);
+  }
+}
+
 TYPED_TEST(Publishers, AScanSeenBeforeAddsNothing) {
   constexpr int Dim = TypeParam::value;
   Publisher<Dim> publisher("car", 0.1);

@@ -13,9 +13,9 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kChunk = 512;
-constexpr int kRefits = 3;               ///< Fits to the points near the last fit.
-constexpr int kMomentBits = 20;          ///< Points are placed to 2^-20 of the cell for the fit.
-constexpr double kBelow = 1.0 - 1e-9;    ///< Keeps bounds below the reach after rounding.
+constexpr int kRefits = 3;             ///< Fits to the points near the last fit.
+constexpr int kMomentBits = 20;        ///< Points are placed to 2^-20 of the cell for the fit.
+constexpr double kBelow = 1.0 - 1e-9;  ///< Keeps bounds below the reach after rounding.
 
 /// A plane that may stand for the points of a cell.
 template <int Dim>

@@ -41,7 +41,8 @@ class Surroundings {
     std::uint64_t all = 0, held = 0, faces = 0;
     std::uint32_t face_count = 0, edge_count = 0, corner_count = 0, face_unknown = 0, edge_unknown = 0;
     for (int d = -kDeep; d <= kDeep; ++d) {  // The three by three around, by slices.
-      const std::uint64_t h = holds_[static_cast<std::size_t>(slice + d)] >> (bit - 7), u = unknown_[static_cast<std::size_t>(slice + d)] >> (bit - 7);
+      const std::uint64_t h = holds_[static_cast<std::size_t>(slice + d)] >> (bit - 7),
+                          u = unknown_[static_cast<std::size_t>(slice + d)] >> (bit - 7);
       const std::uint64_t face = d == 0 ? kPlus : kMiddle, edge = d == 0 ? kCross : kPlus, corner = d == 0 ? 0 : kCross;
       all = (all ^ (h & kSquare) ^ (u & kSquare) << 20U) * kMix;
       held = (held << 3U) ^ (h & kSquare);
@@ -61,7 +62,9 @@ class Surroundings {
     out[3] = hash(exists_, number);
     out[4] = hash(so_far_, number | count(exists_) << 3U | depth_ << 8U);
     out[5] = hash(face_count | edge_count << 3U | corner_count << 7U | face_unknown << 11U, count(parents) | planes_ << 3U | depth_ << 8U);
-    out[6] = hash(((holds_[static_cast<std::size_t>(slice)] >> (bit - 14)) & kWide) * kMix ^ ((unknown_[static_cast<std::size_t>(slice)] >> (bit - 14)) & kWide), 1);
+    out[6] = hash(((holds_[static_cast<std::size_t>(slice)] >> (bit - 14)) & kWide) * kMix ^
+                      ((unknown_[static_cast<std::size_t>(slice)] >> (bit - 14)) & kWide),
+                  1);
     upright(bit, slice, out);
     return out;
   }
@@ -72,7 +75,8 @@ class Surroundings {
   // Child cells are bits: x + 6 y of a slice of given z.
   static constexpr int kDeep = Dim - 2;
   static constexpr std::uint64_t kMix = 0x9e3779b97f4a7c15ULL;
-  static constexpr std::uint64_t kMiddle = 1U << 7U, kPlus = 1U << 1U | 1U << 6U | 1U << 8U | 1U << 13U, kCross = 1U << 0U | 1U << 2U | 1U << 12U | 1U << 14U;
+  static constexpr std::uint64_t kMiddle = 1U << 7U, kPlus = 1U << 1U | 1U << 6U | 1U << 8U | 1U << 13U,
+                                 kCross = 1U << 0U | 1U << 2U | 1U << 12U | 1U << 14U;
   static constexpr std::uint64_t kSquare = kMiddle | kPlus | kCross;
   static constexpr std::uint64_t kWide = 0x1fULL * (1ULL | 1ULL << 6U | 1ULL << 12U | 1ULL << 18U | 1ULL << 24U) & ~(1ULL << 14U);
   static constexpr unsigned kAllChildren = (1U << (1U << Dim)) - 1U;
@@ -109,7 +113,8 @@ class Surroundings {
   void upright(unsigned bit, int slice, std::array<std::uint32_t, kInputs>& out) const {
     std::uint64_t same_x = 0, same_y = 0;
     for (int d = -2 * kDeep; d <= 2 * kDeep; ++d) {
-      const std::uint64_t h = holds_[static_cast<std::size_t>(slice + d)] >> (bit - 14), u = unknown_[static_cast<std::size_t>(slice + d)] >> (bit - 14);
+      const std::uint64_t h = holds_[static_cast<std::size_t>(slice + d)] >> (bit - 14),
+                          u = unknown_[static_cast<std::size_t>(slice + d)] >> (bit - 14);
       constexpr std::uint64_t kColumn = 1ULL << 2U | 1ULL << 8U | 1ULL << 14U | 1ULL << 20U | 1ULL << 26U, kRow = 31ULL << 12U;
       same_x = (same_x ^ (h & kColumn) ^ (u & kColumn) << 30U) * kMix;
       same_y = (same_y ^ (h & kRow) ^ (u & kRow) << 30U) * kMix;

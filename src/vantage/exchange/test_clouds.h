@@ -17,9 +17,12 @@ std::vector<Vec<Dim>> corner_scan(std::size_t count, const Vec<Dim>& at, std::ui
     const double reach = 0.3 + 4.0 * random.uniform() * random.uniform();
     for (int a = 0; a < Dim; ++a) p[a] = at[a] + reach * random.normal();
     const std::uint64_t kind = random.below(20);
-    if (kind < 10) p[Dim - 1] = 0.01 * random.normal();
-    else if (kind < 17) p[0] = 2.0 + 0.1 * p[Dim - 1] + 0.01 * random.normal();
-    else if (kind < 19) p.template tail<Dim - 1>().setConstant(1.5);
+    if (kind < 10)
+      p[Dim - 1] = 0.01 * random.normal();
+    else if (kind < 17)
+      p[0] = 2.0 + 0.1 * p[Dim - 1] + 0.01 * random.normal();
+    else if (kind < 19)
+      p.template tail<Dim - 1>().setConstant(1.5);
     points.push_back(p);
   }
   return points;
