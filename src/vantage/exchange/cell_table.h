@@ -47,7 +47,10 @@ class CellTable {
   /// Where `key` is, or would go.
   [[nodiscard]] std::size_t place(const Site<Dim>& key) const {
     std::uint64_t hash = 0;
-    for (const std::uint32_t k : key) hash = (hash ^ k) * 0x9e3779b97f4a7c15ULL, hash ^= hash >> 29U;
+    for (const std::uint32_t k : key) {
+      hash = (hash ^ k) * 0x9e3779b97f4a7c15ULL;
+      hash ^= hash >> 29U;
+    }
     for (std::size_t at = hash & (slots_.size() - 1);; at = (at + 1) & (slots_.size() - 1))
       if (slots_[at].value == kFree || is_same(slots_[at].key, key)) return at;
   }

@@ -63,7 +63,7 @@ bool ExchangeMap::insert(Entry entry, std::string_view where) {
 bool ExchangeMap::add(const Delta& delta) {
   std::string bytes = delta_bytes(delta);
   const Digest id = sha256(bytes);
-  return insert({id, std::move(bytes), delta}, {});
+  return insert({id, std::move(bytes), delta, 0}, {});
 }
 
 void ExchangeMap::merge(const ExchangeMap& other) {
@@ -109,7 +109,7 @@ ExchangeMap parse_map(std::string_view bytes, std::string_view where) {
     require(checksum(bytes.substr(at, kLength + size)) == get<std::uint32_t>(bytes, at + kLength + size),
             fmt::format("wrong checksum of delta {}", i + 1), here(at + kLength + size));
     const std::string_view body = bytes.substr(at + kLength, size);
-    ExchangeMap::Entry entry{sha256(body), std::string(body), parse_delta(body, where, at + kLength)};
+    ExchangeMap::Entry entry{sha256(body), std::string(body), parse_delta(body, where, at + kLength), at + kLength};
     require(map.empty() || order(map.entries_.back()) < order(entry), fmt::format("delta {} is out of order", i + 1), here(at));
     map.insert(std::move(entry), here(at));
     at += kLength + size + kChecksum;
@@ -139,7 +139,7 @@ std::vector<Patch<Dim>> map_patches(const ExchangeMap& map, std::string_view whe
   std::map<double, Seen<Dim>> seen;  // By the spacing.
   for (const ExchangeMap::Entry& entry : map.entries()) {
     const Delta& delta = entry.delta;
-    const Leaves<Dim> fresh = seen[delta.spacing].unseen(decoded<Dim>(delta, where));
+    const Leaves<Dim> fresh = seen[delta.spacing].unseen(decoded<Dim>(delta, fmt::format("{}:{}", where, entry.offset)));
     for (Patch<Dim>& patch : patches<Dim>({delta.spacing}, fresh)) {
       patch.data_to_surface = rounded_up(delta.data_to_surface);
       patch.surface_to_data = rounded_up(delta.surface_to_data);

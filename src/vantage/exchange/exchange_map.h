@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <filesystem>
-#include <variant>
 #include <vector>
 
 #include "vantage/exchange/delta.h"
@@ -12,11 +11,12 @@ namespace vantage {
 /// Vehicles that hold the same deltas have the same bytes, and the same hash.
 class ExchangeMap {
  public:
-  /// A delta with the offset of its bytes in the file it came from, for messages.
+  /// A delta with its name and its bytes.
   struct Entry {
     Digest id;          ///< SHA-256 of the bytes.
     std::string bytes;  ///< delta_bytes().
     Delta delta;
+    std::size_t offset = 0;  ///< Of the bytes in the file they were read from; 0 if from none.
   };
 
   /// Adds a delta, unless it is there; false then. Throws bad_input for one of another dimension.

@@ -148,6 +148,20 @@ TEST(ExchangeMap, RightChecksumsAroundWrongContent) {
   }
 }
 
+TEST(ExchangeMap, AWrongCodeIsNamedByItsOffset) {
+  std::string wrong = delta_bytes(deltas()[1]);
+  wrong.resize(wrong.size() - deltas()[1].code.size() / 2);
+  const ExchangeMap map = parse_map(framed({delta_bytes(deltas()[0]), wrong}, 2), "a.vmap");
+  const std::size_t offset = 16 + 4 + delta_bytes(deltas()[0]).size() + 4 + 4;
+  try {
+    static_cast<void>(map_patches<3>(map, "a.vmap"));
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_input);
+    EXPECT_EQ(error.where(), "a.vmap:" + std::to_string(offset));
+  }
+}
+
 TEST(ExchangeMap, PlaneAndSpaceDoNotMix) {
   ExchangeMap map = map_of({0});
   const Delta flat = Publisher<2>("car", 0.3).publish(corner_scan<2>(50, Vec<2>::Zero(), 1));

@@ -61,15 +61,16 @@ class PlaneCode {
       guess = extended_heights<Dim>(known, plane.cell, plane.level);
       kind = i + 1 == near_.size() ? 3 : 0;
     } else {
-      plane.axis = code_number(coder, numbers_, plane.axis, 64);
-      if (plane.axis < 0 || plane.axis >= Dim) plane.axis = 0;  // Not from our writer; the checks that follow tell.
+      std::int32_t axis = 0;
+      while (axis + 1 < Dim && code_bit(coder, numbers_, axis < plane.axis, std::array{1U << 26U | static_cast<std::uint32_t>(axis)})) ++axis;
+      plane.axis = axis;
     }
     for (std::uint32_t k = 0; k < Dim; ++k) {
       std::int32_t& height = plane.height[k];
       const std::int32_t difference =
           code_number(coder, numbers_, height - guess[k], kind << 8U | k << 4U | (kind == 4 ? static_cast<std::uint32_t>(plane.level) : 0U));
       height = guess[k] + difference;
-      if (kind < 3 && difference != 0 && kind < 2) ++kind;
+      if (kind < 2 && difference != 0) ++kind;  // Once the prediction failed, it will again.
     }
     planes_.push_back(plane);
   }

@@ -22,7 +22,7 @@ class Surroundings {
       if (n == nullptr) continue;
       exists_ |= 1U << static_cast<unsigned>(i);
       planes_ += n->plane >= 0 ? 1 : 0;
-      place(i % 3, i / 3 % 3, i / 9, n->known ? spread_mask(n->mask) : 0, holds_);
+      place(i % 3, i / 3 % 3, i / 9, n->known ? n->mask : 0, holds_);
       if (!n->known) place(i % 3, i / 3 % 3, i / 9, kAllChildren, unknown_);
     }
   }
@@ -87,7 +87,6 @@ class Surroundings {
   [[nodiscard]] static unsigned bit_of(int k) { return 14U + (static_cast<unsigned>(k) & 1U) + 6U * (static_cast<unsigned>(k) >> 1U & 1U); }
   [[nodiscard]] static int slice_of(int k) { return kDeep * (2 + (k >> 2)); }
   [[nodiscard]] static std::uint32_t count(std::uint64_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); }
-  [[nodiscard]] static unsigned spread_mask(std::uint8_t mask) { return mask; }
   /// Puts the children of neighbour (x, y, z), each from 0 to 2, into `planes`.
   static void place(int x, int y, int z, unsigned mask, std::array<std::uint64_t, static_cast<std::size_t>(power(6, Dim - 2))>& planes) {
     for (int half = 0; half <= kDeep; ++half) {
@@ -120,7 +119,7 @@ class Surroundings {
       same_y = (same_y ^ (h & kRow) ^ (u & kRow) << 30U) * kMix;
     }
     out[kInputs - 1] = hash(same_x, 2);
-    if (kInputs > 8) out[kInputs - 2] = hash(same_y, 3);
+    if (kDeep > 0) out[kInputs - 2] = hash(same_y, 3);
   }
   [[nodiscard]] static std::uint32_t hash(std::uint64_t value, std::uint32_t more) {
     std::uint64_t h = (value + 0x51ed270b) * kMix;
