@@ -11,7 +11,9 @@ using Arguments = std::vector<std::string>;
 int config_command(const Arguments& arguments);
 int explore_command(const Arguments& arguments);
 int info_command(const Arguments& arguments);
+int merge_command(const Arguments& arguments);
 int paper_command(const Arguments& arguments);
+int publish_command(const Arguments& arguments);
 int reconstruct_command(const Arguments& arguments);
 int scan_command(const Arguments& arguments);
 int scene_command(const Arguments& arguments);
@@ -27,6 +29,8 @@ inline constexpr Command kCommands[] = {
     {"explore", "SCENE", "scan, rebuild, find the next vantage point, go there, until done", explore_command},
     {"scan", "SCENE --at x,y,z -o FILE", "one simulated scan to a file", scan_command},
     {"reconstruct", "CLOUD… -o FILE", "surfaces with a certified error from point clouds", reconstruct_command},
+    {"publish", "CLOUD… -o MAP", "scans as deltas of a compact map, to exchange with other vehicles", publish_command},
+    {"merge", "MAP… -o FILE", "one map of several, the same bytes in any order", merge_command},
     {"visibility", "PATCHES --from x,y,z -o FILE", "what is seen from a place", visibility_command},
     {"paper", "NAME -o DIR", "a table or figure of the paper, made again", paper_command},
     {"scene", "NAME -o FILE | --list", "write a built-in scene, or list them", scene_command},

@@ -78,6 +78,20 @@ std::string surface_sentence(const Json& s, int dim) {
   return out + fmt::format(" (eta {:.3g} m)", number(s["eta_m"]));
 }
 
+std::string map_sentence(const Json& m) {
+  const auto count = [&](const char* key) { return m.contains(key) ? m[key].get<std::int64_t>() : 0; };
+  const std::int64_t deltas = count("deltas");
+  std::string out = fmt::format("{} {} of {} {}, {} bytes: ", grouped(deltas), deltas == 1 ? "delta" : "deltas", m["sources"].size(),
+                                m["sources"].size() == 1 ? "source" : "sources", grouped(count("bytes")));
+  if (count("dim") != 2) out += fmt::format("{} polygons, ", grouped(count("polygons")));
+  if (count("dim") == 2) out += fmt::format("{} segments, ", grouped(count("segments")));
+  out += fmt::format("{} points, error at most {:.3g} m", grouped(count("points")),
+                     std::max(number(m["data_to_surface_m"]), number(m["surface_to_data_m"])));
+  if (count("missing_deltas") > 0)
+    out += fmt::format(", {} earlier {} missing", grouped(count("missing_deltas")), count("missing_deltas") == 1 ? "delta" : "deltas");
+  return out + fmt::format("; sha256 {:.16}", m["sha256"].get<std::string>());
+}
+
 std::string summary(const vantage::RunOutcome& outcome) {
   const Json& result = outcome.result;
   const int dim = result["dim"].get<int>();

@@ -13,5 +13,8 @@
 /// The `surface` object in words: "23,456 polygons … within 0.087 m".
 [[nodiscard]] std::string surface_sentence(const vantage::Json& surface, int dim);
 
+/// An exchanged map in words: "16 deltas of 1 source, 386,859 bytes: …".
+[[nodiscard]] std::string map_sentence(const vantage::Json& map);
+
 /// Any JSON object as lines `key  value`, for `vantage info`.
 [[nodiscard]] std::string as_lines(const vantage::Json& json);

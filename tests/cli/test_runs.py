@@ -287,7 +287,7 @@ def test_quiet_json_and_help(vantage, tmp_path):
     result = vantage("explore", "planar", "--max-scans", 1, "-o", tmp_path / "b")
     assert result.stdout.splitlines()[-1] == f"report: {tmp_path}/b/report.html"
     assert "scan   0" in result.stderr and "\033" not in result.stderr
-    for command in ("explore", "scan", "paper", "reconstruct", "visibility", "scene", "info", "config"):
+    for command in ("explore", "scan", "paper", "reconstruct", "publish", "merge", "visibility", "scene", "info", "config"):
         text = vantage(command, "--help")
         assert text.returncode == 0 and "Examples:" in text.stdout and f"vantage {command}" in text.stdout
         assert vantage("help", command).stdout == text.stdout

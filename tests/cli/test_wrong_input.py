@@ -38,6 +38,8 @@ end_header
 NO_FACES = CUBE.replace("element face 12", "element face 0").split("3 0 2 1\n")[0]
 
 FILES = {
+    "newer.vmap": b"VANTMAP2" + 8 * b"\0",
+    "short.vmap": b"VANTMAP1\0\0\0",
     "empty.ply": b"",
     "empty.pcd": b"",
     "empty.xyz": b"",
@@ -171,6 +173,23 @@ TABLE = [
     (["reconstruct", "cube.ply", "--set", "surface.x=0", "-o", "out.ply"], 2, "surface.x: no such option"),
     (["reconstruct", "cube.ply", "-o", "out.doc"], 2, "out.doc: must end in"),
     (["reconstruct", "cube.ply", "-o", "no/such/folder/out.ply"], 3, "no/such/folder"),
+    # publish, merge
+    (["publish", "-o", "out.vmap"], 2, "CLOUD is missing"),
+    (["publish", "cube.ply"], 2, "MAP is missing"),
+    (["publish", "cube.ply", "-o", "out.ply"], 2, "out.ply: must end in .vmap"),
+    (["publish", "none.ply", "-o", "out.vmap"], 3, "none.ply"),
+    (["publish", "cube.ply", "flat.xyz", "-o", "out.vmap"], 2, "flat.xyz: a cloud of 2 dimensions"),
+    (["publish", "cube.ply", "--eta", "0", "-o", "out.vmap"], 2, "surface.eta = 0"),
+    (["publish", "cube.ply", "--source", "a\nb", "-o", "out.vmap"], 2, "printable"),
+    (["publish", "cube.ply", "--onto", "cube.ply", "-o", "out.vmap"], 2, "cube.ply:0: not a map of vantage"),
+    (["publish", "cube.ply", "-o", "no/such/folder/out.vmap"], 3, "no/such/folder"),
+    (["merge", "-o", "out.vmap"], 2, "MAP is missing"),
+    (["merge", "newer.vmap"], 2, "FILE is missing"),
+    (["merge", "newer.vmap", "-o", "out.vmap"], 2, "newer.vmap:7: a map of another version"),
+    (["merge", "short.vmap", "-o", "out.vmap"], 2, "short.vmap:11: the file ends"),
+    (["merge", "none.vmap", "-o", "out.vmap"], 3, "none.vmap"),
+    (["merge", "cube.ply", "-o", "out.vmap"], 2, "cube.ply:0"),
+    (["info", "newer.vmap"], 2, "newer.vmap:7"),
     # visibility
     (["visibility"], 2, "PATCHES is missing"),
     (["visibility", "cube.ply", "-o", "out.vti"], 2, "--from is missing"),

@@ -16,4 +16,7 @@ using AnyPoints = std::variant<std::vector<Vec<2>>, std::vector<Vec<3>>>;
 /// plane and space.
 [[nodiscard]] AnyPoints read_clouds(std::span<const std::filesystem::path> paths);
 
+/// The same, each cloud and each scan of a log for itself.
+[[nodiscard]] std::vector<AnyPoints> read_scans(std::span<const std::filesystem::path> paths);
+
 }  // namespace vantage

@@ -13,6 +13,7 @@
 #include "vantage/io/ply_file.h"
 #include "vantage/io/point_cloud_file.h"
 #include "vantage/io/vti.h"
+#include "vantage/session/exchanged.h"
 #include "vantage/session/run_folder.h"
 #include "vantage/session/scan_log.h"
 #include "vantage/session/scenario_file.h"
@@ -142,6 +143,7 @@ Json inspect(const fs::path& path) {
   const std::string head = first_bytes(path);
   require(!head.empty(), "the file is empty", path.string());
   if (head.starts_with("VANTSCAN")) return scan_log_dim(path) == 2 ? inspect_log<2>(path) : inspect_log<3>(path);
+  if (head.starts_with(kMapMagic.substr(0, 7))) return describe_map(read_map(path), path.string());
   if (head.starts_with("ply")) return inspect_ply(path);
   const std::string extension = path.extension().string();
   if (extension == ".vti") return inspect_image(path);
