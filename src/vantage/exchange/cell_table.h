@@ -5,9 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/geometry/plane_fit.h"
-
 namespace vantage {
+
+/// Coordinates of a cell on the exchange lattice.
+template <int Dim>
+using CellNumber = std::array<std::uint32_t, Dim>;
 
 /// Numbers filed under lattice coordinates: open addressing, since a code looks up all neighbours of every cell.
 template <int Dim>
@@ -16,7 +18,7 @@ class CellTable {
   explicit CellTable(std::size_t expected = 0) { rehash(2 * expected); }
 
   /// Files `value` < 2^32 - 1 under `key`, unless something is there already; false then.
-  bool insert(const Site<Dim>& key, std::uint32_t value) {
+  bool insert(const CellNumber<Dim>& key, std::uint32_t value) {
     if (2 * (size_ + 1) > slots_.size()) rehash(4 * (size_ + 1));
     Slot& slot = slots_[place(key)];
     if (slot.value != kFree) return false;
@@ -24,7 +26,7 @@ class CellTable {
     ++size_;
     return true;
   }
-  [[nodiscard]] std::optional<std::uint32_t> find(const Site<Dim>& key) const {
+  [[nodiscard]] std::optional<std::uint32_t> find(const CellNumber<Dim>& key) const {
     const Slot& slot = slots_[place(key)];
     return slot.value == kFree ? std::nullopt : std::optional(slot.value);
   }
@@ -33,19 +35,19 @@ class CellTable {
  private:
   static constexpr std::uint32_t kFree = 0xffffffffU;
   struct Slot {
-    Site<Dim> key;
+    CellNumber<Dim> key;
     std::uint32_t value = kFree;
   };
   std::vector<Slot> slots_;
   std::size_t size_ = 0;
 
-  [[nodiscard]] static bool is_same(const Site<Dim>& a, const Site<Dim>& b) {
+  [[nodiscard]] static bool is_same(const CellNumber<Dim>& a, const CellNumber<Dim>& b) {
     std::uint32_t differ = 0;
     for (std::size_t k = 0; k < Dim; ++k) differ |= a[k] ^ b[k];
     return differ == 0;
   }
   /// Where `key` is, or would go.
-  [[nodiscard]] std::size_t place(const Site<Dim>& key) const {
+  [[nodiscard]] std::size_t place(const CellNumber<Dim>& key) const {
     std::uint64_t hash = 0;
     for (const std::uint32_t k : key) {
       hash = (hash ^ k) * 0x9e3779b97f4a7c15ULL;
@@ -66,8 +68,8 @@ class CellTable {
 
 /// Calls `visit(cell)` for all cells from `low` to `high`, the first axis fastest.
 template <int Dim, class Visit>
-void each_cell_between(const Site<Dim>& low, const Site<Dim>& high, Visit&& visit) {
-  for (Site<Dim> at = low;;) {
+void each_cell_between(const CellNumber<Dim>& low, const CellNumber<Dim>& high, Visit&& visit) {
+  for (CellNumber<Dim> at = low;;) {
     visit(at);
     std::size_t a = 0;
     while (a < Dim && at[a] == high[a]) {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kFew = 16;  ///< So few points are looked at one by one.
 
 template <int Dim>
-bool is_same_cell(const Site<Dim>& a, const Site<Dim>& b, int level) {
+bool is_same_cell(const CellNumber<Dim>& a, const CellNumber<Dim>& b, int level) {
   for (std::size_t k = 0; k < Dim; ++k)
     if (((a[k] ^ b[k]) >> level) != 0) return false;
   return true;
@@ -22,13 +22,13 @@ bool is_same_cell(const Site<Dim>& a, const Site<Dim>& b, int level) {
 
 template <int Dim>
 CloudCells<Dim>::CloudCells(const ExchangeLattice<Dim>& lattice, std::span<const Vec<Dim>> points) : lattice_(lattice) {
-  std::vector<std::pair<Site<Dim>, Vec<Dim>>> all;
+  std::vector<std::pair<CellNumber<Dim>, Vec<Dim>>> all;
   all.reserve(points.size());
   for (const Vec<Dim>& p : points)
     if (const auto cell = p.allFinite() ? lattice.cell(p) : std::nullopt) all.emplace_back(*cell, p);
   left_out_ = points.size() - all.size();
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    if (a.first != b.first) return morton_less<Dim>(a.first, b.first);
+    if (a.first != b.first) return curve_less<Dim>(a.first, b.first);
     return std::lexicographical_compare(a.second.begin(), a.second.end(), b.second.begin(), b.second.end());
   });
   all.erase(std::unique(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second == b.second; }), all.end());
@@ -42,19 +42,19 @@ CloudCells<Dim>::CloudCells(const ExchangeLattice<Dim>& lattice, std::span<const
 }
 
 template <int Dim>
-Site<Dim> CloudCells<Dim>::cell_of(const CellRange& range, int level) const {
-  Site<Dim> at = cells_[range.begin];
+CellNumber<Dim> CloudCells<Dim>::cell_of(const CellRange& range, int level) const {
+  CellNumber<Dim> at = cells_[range.begin];
   for (std::uint32_t& a : at) a >>= level;
   return at;
 }
 
 template <int Dim>
-std::size_t CloudCells<Dim>::end_of(const Site<Dim>& at, int level, const CellRange& range) const {
-  Site<Dim> corner = at;
+std::size_t CloudCells<Dim>::end_of(const CellNumber<Dim>& at, int level, const CellRange& range) const {
+  CellNumber<Dim> corner = at;
   for (std::uint32_t& a : corner) a <<= level;
   const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(range.begin), last = cells_.begin() + static_cast<std::ptrdiff_t>(range.end);
-  return static_cast<std::size_t>(std::partition_point(first, last, [&](const Site<Dim>& cell) { return is_same_cell<Dim>(cell, corner, level); }) -
-                                  cells_.begin());
+  return static_cast<std::size_t>(
+      std::partition_point(first, last, [&](const CellNumber<Dim>& cell) { return is_same_cell<Dim>(cell, corner, level); }) - cells_.begin());
 }
 
 template <int Dim>
@@ -62,7 +62,7 @@ bool CloudCells<Dim>::is_near(const Vec<Dim>& p, double reach) const {
   const auto low = lattice_.cell(p.array() - reach), high = lattice_.cell(p.array() + reach);
   if (!low || !high) return false;
   bool found = false;
-  each_cell_between<Dim>(*low, *high, [&](const Site<Dim>& cell) {
+  each_cell_between<Dim>(*low, *high, [&](const CellNumber<Dim>& cell) {
     if (found) return;
     const auto first = first_.find(cell);
     if (!first) return;

@@ -21,17 +21,17 @@ class CloudCells {
   CloudCells(const ExchangeLattice<Dim>& lattice, std::span<const Vec<Dim>> points);
 
   [[nodiscard]] const std::vector<Vec<Dim>>& points() const { return points_; }
-  [[nodiscard]] const std::vector<Site<Dim>>& cells() const { return cells_; }
+  [[nodiscard]] const std::vector<CellNumber<Dim>>& cells() const { return cells_; }
   [[nodiscard]] CellRange all() const { return {0, points_.size()}; }
   /// Not finite, or outside the lattice.
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
   /// Number at `level` of the cell of a range's points.
-  [[nodiscard]] Site<Dim> cell_of(const CellRange& range, int level) const;
+  [[nodiscard]] CellNumber<Dim> cell_of(const CellRange& range, int level) const;
   /// Calls `visit(range)` for the cells of `level` that hold points of `range`, in order.
   template <class Visit>
   void each_cell(const CellRange& range, int level, Visit&& visit) const {
     for (CellRange part{range.begin, range.begin}; part.end < range.end; part.begin = part.end) {
-      const Site<Dim> at = cell_of({part.begin, part.begin + 1}, level);
+      const CellNumber<Dim> at = cell_of({part.begin, part.begin + 1}, level);
       part.end = end_of(at, level, {part.begin, range.end});
       visit(part);
     }
@@ -44,12 +44,12 @@ class CloudCells {
  private:
   ExchangeLattice<Dim> lattice_;
   std::vector<Vec<Dim>> points_;
-  std::vector<Site<Dim>> cells_;
+  std::vector<CellNumber<Dim>> cells_;
   CellTable<Dim> first_;  ///< Number of the first point of each cell of level 0.
   std::size_t left_out_ = 0;
 
   /// Where the points of cell `at` end, which begin where `range` does.
-  [[nodiscard]] std::size_t end_of(const Site<Dim>& at, int level, const CellRange& range) const;
+  [[nodiscard]] std::size_t end_of(const CellNumber<Dim>& at, int level, const CellRange& range) const;
   void gather(const Box<Dim>& box, const CellRange& range, int level, std::vector<std::size_t>& out) const;
 };
 

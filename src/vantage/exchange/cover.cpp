@@ -17,11 +17,11 @@ constexpr double kRoundedUp = 1.0 + 1e-7;
 template <int Dim>
 struct Candidates {
   struct Pair {
-    Site<Dim> site;
+    CellNumber<Dim> site;
     std::uint32_t point;
     float distance;
   };
-  std::vector<Site<Dim>> sites;
+  std::vector<CellNumber<Dim>> sites;
   std::vector<double> nearest;                    ///< Upper bound of the distance of a site to its nearest point [m].
   std::vector<std::uint32_t> site_start, served;  ///< Points of each site.
   std::vector<std::uint32_t> point_start, by;     ///< Sites of each point.
@@ -31,7 +31,7 @@ struct Candidates {
     point_start.assign(1, 0);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       each_site_near(lattice, points[i], reach,
-                     [&](const Site<Dim>& site, double distance) { pairs.push_back({site, i, static_cast<float>(distance)}); });
+                     [&](const CellNumber<Dim>& site, double distance) { pairs.push_back({site, i, static_cast<float>(distance)}); });
       point_start.push_back(static_cast<std::uint32_t>(pairs.size()));
     }
     std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return std::tie(a.site, a.point) < std::tie(b.site, b.point); });
@@ -114,7 +114,7 @@ Cover<Dim> cover(const ExchangeLattice<Dim>& lattice, std::span<const Vec<Dim>> 
     for (std::uint32_t& a : leaf.cell) a >>= 1U;
     leaves.push_back(leaf);
   }
-  std::stable_sort(leaves.begin(), leaves.end(), [](const auto& a, const auto& b) { return morton_less<Dim>(a.cell, b.cell); });
+  std::stable_sort(leaves.begin(), leaves.end(), [](const auto& a, const auto& b) { return curve_less<Dim>(a.cell, b.cell); });
   for (const SiteLeaf<Dim>& leaf : leaves) {
     if (out.leaves.empty() || out.leaves.back().cell != leaf.cell) out.leaves.push_back({leaf.cell, 0});
     out.leaves.back().sites |= leaf.sites;

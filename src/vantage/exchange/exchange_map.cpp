@@ -47,7 +47,7 @@ class Seen {
 
  private:
   CellTable<Dim> sites_;
-  std::set<std::tuple<int, Site<Dim>, int, std::array<std::int32_t, Dim>>> planes_;
+  std::set<std::tuple<int, CellNumber<Dim>, int, std::array<std::int32_t, Dim>>> planes_;
 };
 
 }  // namespace

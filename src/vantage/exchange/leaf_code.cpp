@@ -22,14 +22,14 @@ template <int Dim>
 using Cells = std::vector<LevelCell<Dim>>;
 
 template <int Dim>
-Site<Dim> parent_of(const Site<Dim>& cell) {
-  Site<Dim> at = cell;
+CellNumber<Dim> parent_of(const CellNumber<Dim>& cell) {
+  CellNumber<Dim> at = cell;
   for (std::uint32_t& a : at) a >>= 1U;
   return at;
 }
 
 template <int Dim>
-int child_number(const Site<Dim>& cell) {
+int child_number(const CellNumber<Dim>& cell) {
   int k = 0;
   for (int a = 0; a < Dim; ++a) k |= static_cast<int>(cell[a] & 1U) << a;
   return k;
@@ -51,7 +51,7 @@ class Pyramid {
       levels_[static_cast<std::size_t>(plane.level)].push_back({.at = plane.cell, .plane = static_cast<std::int32_t>(i)});
     }
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) raise(levels_[l], levels_[l + 1]);
-    if (!levels_.back().empty()) require(levels_.back().size() == 1 && levels_.back()[0].at == Site<Dim>{}, "a leaf outside the lattice");
+    if (!levels_.back().empty()) require(levels_.back().size() == 1 && levels_.back()[0].at == CellNumber<Dim>{}, "a leaf outside the lattice");
   }
   [[nodiscard]] const Cells<Dim>& level(int l) const { return levels_[static_cast<std::size_t>(l)]; }
   [[nodiscard]] const std::vector<PlaneLeaf<Dim>>& planes() const { return leaves_.planes; }
@@ -63,13 +63,13 @@ class Pyramid {
   static void raise(const Cells<Dim>& from, Cells<Dim>& to) {
     Cells<Dim> parents;
     for (const LevelCell<Dim>& cell : from) {
-      const Site<Dim> at = parent_of<Dim>(cell.at);
+      const CellNumber<Dim> at = parent_of<Dim>(cell.at);
       if (parents.empty() || parents.back().at != at) parents.push_back({.at = at});
       parents.back().mask |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(child_number<Dim>(cell.at)));
     }
     Cells<Dim> all;
     std::merge(parents.begin(), parents.end(), to.begin(), to.end(), std::back_inserter(all),
-               [](const auto& a, const auto& b) { return morton_less<Dim>(a.at, b.at); });
+               [](const auto& a, const auto& b) { return curve_less<Dim>(a.at, b.at); });
     to.clear();
     for (const LevelCell<Dim>& cell : all) {
       if (to.empty() || to.back().at != cell.at) {
@@ -214,8 +214,8 @@ class TreeCode {
 template <int Dim>
 void sort_leaves(Leaves<Dim>& leaves) {
   std::sort(leaves.planes.begin(), leaves.planes.end(),
-            [](const auto& a, const auto& b) { return a.level != b.level ? a.level > b.level : morton_less<Dim>(a.cell, b.cell); });
-  std::sort(leaves.sites.begin(), leaves.sites.end(), [](const auto& a, const auto& b) { return morton_less<Dim>(a.cell, b.cell); });
+            [](const auto& a, const auto& b) { return a.level != b.level ? a.level > b.level : curve_less<Dim>(a.cell, b.cell); });
+  std::sort(leaves.sites.begin(), leaves.sites.end(), [](const auto& a, const auto& b) { return curve_less<Dim>(a.cell, b.cell); });
 }
 
 template <int Dim>

@@ -24,11 +24,11 @@ Leaves<Dim> random_leaves(std::uint64_t seed, std::size_t planes, std::size_t ce
   Random random(seed);
   const auto base = seed % 2 == 0 ? ExchangeLattice<Dim>::kOrigin - width / 2 : static_cast<std::uint32_t>(random.below((1U << 31U) - width));
   const auto cell = [&] {
-    Site<Dim> at;
+    CellNumber<Dim> at;
     for (std::uint32_t& a : at) a = base + static_cast<std::uint32_t>(random.below(width));
     return at;
   };
-  std::map<std::pair<int, Site<Dim>>, PlaneLeaf<Dim>> by_cell;
+  std::map<std::pair<int, CellNumber<Dim>>, PlaneLeaf<Dim>> by_cell;
   for (std::size_t i = 0; i < planes; ++i) {
     PlaneLeaf<Dim> plane{.cell = cell()};
     plane.level = PlaneLeaf<Dim>::kLowest + static_cast<int>(random.below(PlaneLeaf<Dim>::kHighest));
@@ -37,7 +37,7 @@ Leaves<Dim> random_leaves(std::uint64_t seed, std::size_t planes, std::size_t ce
     for (std::int32_t& h : plane.height) h = static_cast<std::int32_t>(random.below(i % 7 == 0 ? 100000 : 40)) - 20;
     by_cell[{plane.level, plane.cell}] = plane;
   }
-  std::map<Site<Dim>, std::uint8_t> sites;
+  std::map<CellNumber<Dim>, std::uint8_t> sites;
   for (std::size_t i = 0; i < cells; ++i) sites[cell()] = static_cast<std::uint8_t>(1 + random.below(3));
   Leaves<Dim> leaves;
   for (const auto& [key, plane] : by_cell) leaves.planes.push_back(plane);
@@ -97,10 +97,10 @@ TYPED_TEST(LeafCodes, WrongCountsAndWrongBytesEndInAnErrorOrInLeaves) {
 
 TYPED_TEST(LeafCodes, RefuseWhatTheFormatCannotSay) {
   constexpr int Dim = TypeParam::value;
-  Site<Dim> far{};
+  CellNumber<Dim> far{};
   far[0] = 1U << 31U;
   EXPECT_THROW(static_cast<void>(encode_leaves(Leaves<Dim>{{}, {{far, 1}}})), Error);
-  EXPECT_THROW(static_cast<void>(encode_leaves(Leaves<Dim>{{}, {{Site<Dim>{}, 0}}})), Error);
+  EXPECT_THROW(static_cast<void>(encode_leaves(Leaves<Dim>{{}, {{CellNumber<Dim>{}, 0}}})), Error);
   EXPECT_THROW(static_cast<void>(encode_leaves(Leaves<Dim>{{{.cell = {}, .level = 0}}, {}})), Error);
   EXPECT_THROW(static_cast<void>(encode_leaves(Leaves<Dim>{{{.cell = {}, .level = 2}, {.cell = {}, .level = 2}}, {}})), Error);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "vantage/exchange/cell_table.h"
 #include "vantage/geometry/clip.h"
 #include "vantage/geometry/patch.h"
 
@@ -22,8 +23,8 @@ struct ExchangeLattice {
   [[nodiscard]] static ExchangeLattice covering(double reach) { return {(1.0 - 1e-6) * 4.0 / std::sqrt(2.0 * Dim - Dim % 2) * reach}; }
 
   /// The cell that holds p; nullopt more than 2^29 cells from the origin.
-  [[nodiscard]] std::optional<Site<Dim>> cell(const Vec<Dim>& p) const {
-    Site<Dim> at;
+  [[nodiscard]] std::optional<CellNumber<Dim>> cell(const Vec<Dim>& p) const {
+    CellNumber<Dim> at;
     for (int a = 0; a < Dim; ++a) {
       const double number = std::floor(p[a] / spacing);
       if (!(std::abs(number) <= static_cast<double>(kOrigin / 2))) return std::nullopt;
@@ -32,18 +33,18 @@ struct ExchangeLattice {
     return at;
   }
   /// Low corner of cell `at` of `level` [m].
-  [[nodiscard]] Vec<Dim> corner(const Site<Dim>& at, int level) const {
+  [[nodiscard]] Vec<Dim> corner(const CellNumber<Dim>& at, int level) const {
     Vec<Dim> p;
     for (int a = 0; a < Dim; ++a) p[a] = spacing * static_cast<double>((std::int64_t{at[a]} << level) - kOrigin);
     return p;
   }
   [[nodiscard]] double side(int level) const { return spacing * static_cast<double>(std::int64_t{1} << level); }
-  [[nodiscard]] Box<Dim> box(const Site<Dim>& at, int level) const {
+  [[nodiscard]] Box<Dim> box(const CellNumber<Dim>& at, int level) const {
     const Vec<Dim> low = corner(at, level);
     return {low, low.array() + side(level)};
   }
   /// Place of the site of cell `at`: its corner, or its centre [m].
-  [[nodiscard]] Vec<Dim> site(const Site<Dim>& at, bool center) const { return corner(at, 0).array() + (center ? 0.5 * spacing : 0.0); }
+  [[nodiscard]] Vec<Dim> site(const CellNumber<Dim>& at, bool center) const { return corner(at, 0).array() + (center ? 0.5 * spacing : 0.0); }
 };
 
 /// The plane (in 2D: line) through a cell, as heights over its face: exact integers, so that all who read it have the same one.
@@ -52,7 +53,7 @@ struct PlaneLeaf {
   static constexpr int kLowest = 1, kHighest = 7;  ///< Levels of cells that may hold one.
   static constexpr int kSteps = 12;                ///< Steps of height in a cell of level 0.
 
-  Site<Dim> cell{};
+  CellNumber<Dim> cell{};
   std::int32_t level = 0;
   std::int32_t axis = 0;                   ///< Heights are along it; the normal's largest component.
   std::array<std::int32_t, Dim> height{};  ///< At the low corner from the cell's low face, then what it gains across the cell along each other axis.
@@ -63,7 +64,7 @@ struct PlaneLeaf {
 /// Sites of one cell.
 template <int Dim>
 struct SiteLeaf {
-  Site<Dim> cell{};
+  CellNumber<Dim> cell{};
   std::uint8_t sites = 0;  ///< 1: its corner, 2: its centre, 3: both.
 
   friend bool operator==(const SiteLeaf&, const SiteLeaf&) = default;

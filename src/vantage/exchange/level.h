@@ -12,7 +12,7 @@ namespace vantage {
 /// A cell of the tree while it is coded.
 template <int Dim>
 struct LevelCell {
-  Site<Dim> at{};
+  CellNumber<Dim> at{};
   std::uint8_t mask = 0;     ///< Children that hold something, as far as known; at level 0 the sites.
   bool known = false;        ///< All of `mask` is.
   bool below_plane = false;  ///< Only part of a plane's cell that the plane meets: nothing to code, but worth knowing to its neighbours.
@@ -29,10 +29,10 @@ class Level {
     for (std::size_t i = 0; i < cells.size(); ++i) table_.insert(cells[i].at, static_cast<std::uint32_t>(i));
   }
   /// The cells around `at` and itself, the first axis fastest; nullptr where there is none.
-  [[nodiscard]] std::array<const LevelCell<Dim>*, kNear> around(const Site<Dim>& at) const {
+  [[nodiscard]] std::array<const LevelCell<Dim>*, kNear> around(const CellNumber<Dim>& at) const {
     std::array<const LevelCell<Dim>*, kNear> near{};
     for (int i = 0; i < kNear; ++i) {
-      Site<Dim> other = at;
+      CellNumber<Dim> other = at;
       for (int a = 0, rest = i; a < Dim; ++a, rest /= 3) other[a] += static_cast<std::uint32_t>(rest % 3 - 1);
       if (const auto found = table_.find(other)) near[static_cast<std::size_t>(i)] = &cells[*found];
     }
@@ -47,8 +47,8 @@ class Level {
 
 /// Number of child k of `cell`.
 template <int Dim>
-[[nodiscard]] Site<Dim> child_of(const Site<Dim>& cell, int k) {
-  Site<Dim> at = cell;
+[[nodiscard]] CellNumber<Dim> child_of(const CellNumber<Dim>& cell, int k) {
+  CellNumber<Dim> at = cell;
   for (int a = 0; a < Dim; ++a) at[a] = 2 * at[a] + (static_cast<std::uint32_t>(k) >> a & 1U);
   return at;
 }

@@ -17,7 +17,7 @@ std::uint32_t hash(std::uint32_t kind, std::uint64_t value) {
 }  // namespace
 
 template <int Dim>
-std::array<std::int32_t, Dim> extended_heights(const PlaneLeaf<Dim>& known, const Site<Dim>& cell, int level) {
+std::array<std::int32_t, Dim> extended_heights(const PlaneLeaf<Dim>& known, const CellNumber<Dim>& cell, int level) {
   constexpr std::int64_t kMost = 1 << 22;
   const auto apart = [&](int a) {
     return (std::int64_t{cell[static_cast<std::size_t>(a)]} << level) - (std::int64_t{known.cell[static_cast<std::size_t>(a)]} << known.level);
@@ -35,14 +35,14 @@ std::array<std::int32_t, Dim> extended_heights(const PlaneLeaf<Dim>& known, cons
 }
 
 template <int Dim>
-std::uint8_t met_children(const PlaneLeaf<Dim>& plane, const Site<Dim>& cell, int level) {
+std::uint8_t met_children(const PlaneLeaf<Dim>& plane, const CellNumber<Dim>& cell, int level) {
   const std::int64_t width = std::int64_t{1} << (level - 1);
-  const auto low = [&](const Site<Dim>& child, int a) {
+  const auto low = [&](const CellNumber<Dim>& child, int a) {
     return (std::int64_t{child[static_cast<std::size_t>(a)]} << (level - 1)) - (std::int64_t{plane.cell[static_cast<std::size_t>(a)]} << plane.level);
   };
   std::uint8_t mask = 0;
   for (int k = 0; k < (1 << Dim); ++k) {
-    const Site<Dim> child = child_of<Dim>(cell, k);
+    const CellNumber<Dim> child = child_of<Dim>(cell, k);
     std::int64_t least = std::int64_t{plane.height[0]} << plane.level, most = least;  // Heights over the child, times 2^plane.level.
     for (int i = 1; i < Dim; ++i) {
       const std::int64_t slope = plane.height[static_cast<std::size_t>(i)], from = low(child, (plane.axis + i) % Dim);
@@ -89,10 +89,10 @@ std::array<std::uint32_t, 5> SiteContexts<Dim>::center() const {
   return all;
 }
 
-template std::array<std::int32_t, 2> extended_heights<2>(const PlaneLeaf<2>&, const Site<2>&, int);
-template std::array<std::int32_t, 3> extended_heights<3>(const PlaneLeaf<3>&, const Site<3>&, int);
-template std::uint8_t met_children<2>(const PlaneLeaf<2>&, const Site<2>&, int);
-template std::uint8_t met_children<3>(const PlaneLeaf<3>&, const Site<3>&, int);
+template std::array<std::int32_t, 2> extended_heights<2>(const PlaneLeaf<2>&, const CellNumber<2>&, int);
+template std::array<std::int32_t, 3> extended_heights<3>(const PlaneLeaf<3>&, const CellNumber<3>&, int);
+template std::uint8_t met_children<2>(const PlaneLeaf<2>&, const CellNumber<2>&, int);
+template std::uint8_t met_children<3>(const PlaneLeaf<3>&, const CellNumber<3>&, int);
 template class SiteContexts<2>;
 template class SiteContexts<3>;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "vantage/exchange/cell_table.h"
 #include "vantage/exchange/leaves.h"
 #include "vantage/exchange/level.h"
 #include "vantage/exchange/predictor.h"
@@ -12,11 +13,11 @@ namespace vantage {
 /// The heights that `known`, a plane elsewhere, has over the face of `cell` of `level`, rounded to whole steps: the same plane there, if both have
 /// one. Integers only.
 template <int Dim>
-[[nodiscard]] std::array<std::int32_t, Dim> extended_heights(const PlaneLeaf<Dim>& known, const Site<Dim>& cell, int level);
+[[nodiscard]] std::array<std::int32_t, Dim> extended_heights(const PlaneLeaf<Dim>& known, const CellNumber<Dim>& cell, int level);
 
 /// Children of `cell` (of `level`, inside the plane's own or equal to it) that the plane meets.
 template <int Dim>
-[[nodiscard]] std::uint8_t met_children(const PlaneLeaf<Dim>& plane, const Site<Dim>& cell, int level);
+[[nodiscard]] std::uint8_t met_children(const PlaneLeaf<Dim>& plane, const CellNumber<Dim>& cell, int level);
 
 /// Codes which cells are planes, and which planes: each as its difference to one that a neighbouring cell has, or to the last one.
 template <int Dim>

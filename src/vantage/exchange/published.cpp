@@ -26,7 +26,7 @@ void Published<Dim>::add_plane(const PlaneLeaf<Dim>& plane) {
 template <int Dim>
 std::optional<double> Published<Dim>::distance(const Vec<Dim>& p) const {
   double best = kInfinity;
-  each_site_near(lattice_, p, reach_, [&](const Site<Dim>& site, double distance) {
+  each_site_near(lattice_, p, reach_, [&](const CellNumber<Dim>& site, double distance) {
     if (distance < best && sites_.find(site)) best = distance;
   });
   const auto low = lattice_.cell(p.array() - reach_), high = lattice_.cell(p.array() + reach_);
@@ -34,12 +34,12 @@ std::optional<double> Published<Dim>::distance(const Vec<Dim>& p) const {
   for (const auto& table : tables_)
     for (std::size_t level = PlaneLeaf<Dim>::kLowest; level < kLevels; ++level) {
       if (table[level].size() == 0) continue;
-      Site<Dim> first = *low, last = *high;
+      CellNumber<Dim> first = *low, last = *high;
       for (std::size_t a = 0; a < Dim; ++a) {
         first[a] >>= level;
         last[a] >>= level;
       }
-      each_cell_between<Dim>(first, last, [&](const Site<Dim>& cell) {
+      each_cell_between<Dim>(first, last, [&](const CellNumber<Dim>& cell) {
         if (const auto found = table[level].find(cell)) best = std::min(best, vantage::distance(planes_[*found], p));
       });
     }

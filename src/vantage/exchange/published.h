@@ -11,20 +11,20 @@ namespace vantage {
 
 /// Number of a site among all sites of the lattice: in each axis twice its cell's, plus 1 for the centre.
 template <int Dim>
-[[nodiscard]] Site<Dim> site_number(const Site<Dim>& cell, bool center) {
-  Site<Dim> number = cell;
+[[nodiscard]] CellNumber<Dim> site_number(const CellNumber<Dim>& cell, bool center) {
+  CellNumber<Dim> number = cell;
   for (std::uint32_t& n : number) n = 2 * n + (center ? 1 : 0);
   return number;
 }
 /// Calls `visit(number, distance)` for the sites within `reach` of p, which lies in `cell`; reach is at most that of the lattice.
 template <int Dim, class Visit>
 void each_site_near(const ExchangeLattice<Dim>& lattice, const Vec<Dim>& p, double reach, Visit&& visit) {
-  const std::optional<Site<Dim>> cell = lattice.cell(p);
+  const std::optional<CellNumber<Dim>> cell = lattice.cell(p);
   if (!cell) return;
   const Vec<Dim> inside = (p - lattice.corner(*cell, 0)) / lattice.spacing;
   const double limit2 = (1.0 + 1e-6) * (reach / lattice.spacing) * (reach / lattice.spacing);
   for (const bool center : {false, true}) {
-    Site<Dim> first = *cell;
+    CellNumber<Dim> first = *cell;
     std::array<std::array<double, 2>, Dim> apart2;  // Along each axis, to the lower and the upper of two sites, in cells, squared.
     for (unsigned a = 0; a < Dim; ++a) {
       double apart = inside[a];
@@ -39,7 +39,7 @@ void each_site_near(const ExchangeLattice<Dim>& lattice, const Vec<Dim>& p, doub
       double distance2 = 0.0;
       for (unsigned a = 0; a < Dim; ++a) distance2 += apart2[a][k >> a & 1U];
       if (distance2 > limit2) continue;
-      Site<Dim> at = first;
+      CellNumber<Dim> at = first;
       for (unsigned a = 0; a < Dim; ++a) at[a] += k >> a & 1U;
       const double distance = (lattice.site(at, center) - p).norm();
       if (distance <= reach) visit(site_number<Dim>(at, center), distance);

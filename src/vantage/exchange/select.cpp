@@ -8,6 +8,7 @@
 #include "vantage/exchange/cover.h"
 #include "vantage/exchange/leaf_code.h"
 #include "vantage/geometry/hausdorff.h"
+#include "vantage/geometry/plane_fit.h"
 
 namespace vantage {
 namespace {
@@ -65,7 +66,7 @@ class PlaneSearch {
     double discs = 0.4;
     for (int a = 1; a < Dim; ++a) discs *= lattice_.side(level) / (2.0 * reach_);
     if (static_cast<double>(range.size()) < discs || range.size() < Dim) return std::nullopt;
-    const Site<Dim> cell = cloud_.cell_of(range, level);
+    const CellNumber<Dim> cell = cloud_.cell_of(range, level);
     std::vector<std::size_t> members(range.size()), around;
     for (std::size_t i = 0; i < members.size(); ++i) members[i] = range.begin + i;
     for (int round = 0; round < kRefits && members.size() >= Dim; ++round) {
@@ -93,7 +94,7 @@ class PlaneSearch {
   }
 
   /// The PCA plane through points of a cell, rounded to heights.
-  [[nodiscard]] PlaneLeaf<Dim> through(std::span<const std::size_t> members, const Site<Dim>& cell, int level) const {
+  [[nodiscard]] PlaneLeaf<Dim> through(std::span<const std::size_t> members, const CellNumber<Dim>& cell, int level) const {
     const Box<Dim> box = lattice_.box(cell, level);
     const double side = lattice_.side(level), unit = side / (1 << kMomentBits);
     std::vector<Site<Dim>> sites(members.size());

@@ -245,7 +245,7 @@ bool passes_limit(const ConvexRegion<2>& region, const Feet<2>& points, double l
   return best2 > limit * limit;
 }
 
-Covering<2> branch_and_bound(const ConvexRegion<2>& region, const Feet<2>& points, double limit, bool sharp) {
+CoverRadius<2> branch_and_bound(const ConvexRegion<2>& region, const Feet<2>& points, double limit, bool sharp) {
   constexpr int Rank = 2;
   thread_local Arena<Rank> arena;
   Search<Rank> search(region, arena, limit, sharp);
@@ -271,14 +271,14 @@ Covering<2> branch_and_bound(const ConvexRegion<2>& region, const Feet<2>& point
 }  // namespace
 
 template <>
-Covering<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search) {
+CoverRadius<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search) {
   constexpr double kWider = 1.0 + 1e-3;
   if (region.count == 0) return {0.0, {}};
   if (points.size() == 0) return {std::nullopt, region.vertices[0]};
   if (!std::isfinite(limit)) return branch_and_bound(region, points, limit, true);
   // A sharp search decides as any other does; then it looks for the radius without that limit in its way.
   if (search.first != nullptr && passes_limit(region, points, limit, *search.first)) return {std::nullopt, *search.first};
-  Covering<2> covering{limit, {}};
+  CoverRadius<2> covering{limit, {}};
   if (points.size() > kFewFeet) {
     covering = branch_and_bound(region, points, limit, false);
   } else if (const auto uncovered = find_uncovered(region, points, limit)) {

@@ -27,7 +27,7 @@ template <int Rank>
 
 /// delta(region, points), Eq. (3): the largest distance of a place of the region to its nearest point.
 template <int Rank>
-struct Covering {
+struct CoverRadius {
   std::optional<double> radius;                 ///< An upper bound [m]; nullopt if the limit is passed.
   typename ConvexRegion<Rank>::Place farthest;  ///< If the limit is passed: a place (nearly) that far away.
 };
@@ -47,12 +47,12 @@ inline constexpr double kCoverRounding = 1e-9;
 /// bound over the region has bounds on both sides. `limit` may be infinite in a sharp search. Nothing reaches an empty set of points. After DeVore
 /// et al. [5], whose test samples.
 template <int Rank>
-[[nodiscard]] Covering<Rank> cover(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit, const CoverSearch<Rank>& search);
+[[nodiscard]] CoverRadius<Rank> cover(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit, const CoverSearch<Rank>& search);
 
 template <>
-Covering<1> cover(const ConvexRegion<1>& region, const Feet<1>& points, double limit, const CoverSearch<1>& search);
+CoverRadius<1> cover(const ConvexRegion<1>& region, const Feet<1>& points, double limit, const CoverSearch<1>& search);
 template <>
-Covering<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search);
+CoverRadius<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search);
 
 /// The sharp radius alone.
 template <int Rank>

@@ -33,8 +33,8 @@ void nearest_feet(const Feet<1>& points, std::vector<LineFoot>& feet, std::vecto
 }  // namespace
 
 template <>
-Covering<1> cover(const ConvexRegion<1>& region, const Feet<1>& points, double limit, const CoverSearch<1>& /*search*/) {
-  Covering<1> covering;
+CoverRadius<1> cover(const ConvexRegion<1>& region, const Feet<1>& points, double limit, const CoverSearch<1>& /*search*/) {
+  CoverRadius<1> covering;
   if (region.count == 0) return {0.0, {}};
   if (points.size() == 0) return {std::nullopt, region.vertices[0]};
   thread_local std::vector<LineFoot> feet, envelope;

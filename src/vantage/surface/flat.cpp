@@ -101,7 +101,7 @@ class Attempts {
     if (region.count == 0 || region.measure() > static_cast<double>(points_.size()) * most_each_) return std::nullopt;
     const double data = farthest_point(region, points_);
     if (data > limits_.data) return std::nullopt;
-    const Covering<Rank> covering = cover<Rank>(region, points_, limits_.surface, search_);
+    const CoverRadius<Rank> covering = cover<Rank>(region, points_, limits_.surface, search_);
     if (covering.radius) return Errors{data, *covering.radius};
     hole_ = covering.farthest;  // Most likely the next region has it too.
     search_.first = &hole_;
@@ -235,7 +235,7 @@ std::optional<Patch<Dim>> fit_chord(std::span<const Site<Dim>> sites, const FitR
   using Place = ConvexRegion<1>::Place;
   const double apart = rules.spacing != nullptr ? rules.spacing->on_line(sites, from + 0.5 * way, along) : 0.0;
   const double limit = std::max(rules.limit, apart);
-  const Covering<1> covering = cover<1>(ConvexRegion<1>::box(Place(0.0), Place(length)), feet, limit, {rules.sharp, nullptr});
+  const CoverRadius<1> covering = cover<1>(ConvexRegion<1>::box(Place(0.0), Place(length)), feet, limit, {rules.sharp, nullptr});
   if (!covering.radius) return std::nullopt;
   Patch<Dim> patch = segment_patch<Dim>(rules.snap.world(from), rules.snap.world(from + way));
   patch.data_to_surface = rounded_up(std::sqrt(data2) + rules.snap.slack());

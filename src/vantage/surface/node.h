@@ -30,7 +30,7 @@ struct LeafNode {
   std::vector<Site<Dim>> sites;  ///< In Morton order.
   CellFit<Dim> fit;              ///< Of its loose sites, those in one place are there once.
   std::int64_t points = 0;       ///< That the sites stand for.
-  bool sharp = false;            ///< Its bounds are.
+  std::vector<float> sharp;      ///< surface_to_data of each patch, at most 10 % above the truth; empty: not worked out yet.
 };
 
 /// Node of the Hausdorff tree; an empty leaf has neither.
@@ -44,7 +44,7 @@ template <int Dim>
 struct InnerNode {
   std::array<Node<Dim>, Cell<Dim>::kChildren> children;
   Totals totals;
-  bool sharp = false;                     ///< All bounds below are.
+  bool sharp = false;                     ///< Sharp bounds are worked out everywhere below.
   std::unique_ptr<Proof<Dim>> proof;      ///< That the cell had to be split; null if none was found.
   std::unique_ptr<Moments<Dim>> moments;  ///< Of all sites below, in large cells without a proof: these are asked again.
 };

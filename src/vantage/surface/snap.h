@@ -22,10 +22,10 @@ template <class AnySite>
   return site.back() >> kCountBits;
 }
 
-/// Order along the Morton curve: total (sites in one place by their scans), and every dyadic cell is an interval of it. Bit `a` of a cell's number
-/// among its siblings is its side in axis a.
-template <int Dim>
-[[nodiscard]] inline bool morton_less(const Site<Dim>& a, const Site<Dim>& b) {
+/// Order along the Morton curve: every dyadic cell is an interval of it. Bit `a` of a cell's number among its siblings is its side in axis a. By the
+/// first Dim coordinates; equal ones are not less.
+template <int Dim, class Numbers>
+[[nodiscard]] inline bool curve_less(const Numbers& a, const Numbers& b) {
   int axis = Dim - 1;
   std::uint32_t most = a[axis] ^ b[axis];
   for (int k = Dim - 2; k >= 0; --k) {
@@ -35,7 +35,14 @@ template <int Dim>
       axis = k;
     }
   }
-  return a[axis] != b[axis] ? a[axis] < b[axis] : scan_of(a) < scan_of(b);
+  return a[axis] < b[axis];
+}
+
+/// The total order of sites: along the curve, those in one place by their scans.
+template <int Dim>
+[[nodiscard]] inline bool morton_less(const Site<Dim>& a, const Site<Dim>& b) {
+  if (curve_less<Dim>(a, b)) return true;
+  return std::equal(a.begin(), a.begin() + Dim, b.begin()) && scan_of(a) < scan_of(b);
 }
 
 template <int Dim>

@@ -105,7 +105,11 @@ struct HausdorffTree<Dim>::Impl {
     if (node.inner)
       for (int c = 0; c < Cell<Dim>::kChildren; ++c) collect(node.inner->children[c], cell.child(c), box, out);
     if (node.leaf) {
-      for (const Patch<Dim>& patch : node.leaf->fit.patches) take(patch);
+      for (std::size_t i = 0; i < node.leaf->fit.patches.size(); ++i) {
+        Patch<Dim> patch = node.leaf->fit.patches[i];
+        if (box == nullptr) patch.surface_to_data = node.leaf->sharp[i];
+        take(patch);
+      }
       for (const std::uint32_t i : node.leaf->fit.loose) take(loose_patch<Dim>(node.leaf->sites[i], rules));
     }
   }
@@ -170,7 +174,6 @@ std::vector<Patch<Dim>> HausdorffTree<Dim>::patches(const Box<Dim>& box) const {
 template <int Dim>
   requires SpatialDim<Dim>
 SurfaceStatistics HausdorffTree<Dim>::statistics() const {
-  impl_->tree.sharpen();
   const Totals totals = impl_->tree.totals();
   SurfaceStatistics out;
   out.points = totals.points;
@@ -186,7 +189,7 @@ SurfaceStatistics HausdorffTree<Dim>::statistics() const {
   out.quantise = impl_->options.quantise;
   out.beyond_eta = totals.beyond_eta;
   out.data_to_surface = totals.data_to_surface;
-  out.surface_to_data = totals.surface_to_data;
+  out.surface_to_data = impl_->tree.sharp_surface_to_data();
   if (impl_->options.paper) out.data_to_surface = farthest_site(impl_->tree);
   return out;
 }

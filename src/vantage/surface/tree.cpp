@@ -152,7 +152,7 @@ Change<Dim> Tree<Dim>::update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::
   if (node.leaf && action == Action::insert && all.sites.size() <= kFewSites && !rules_.paper) {
     LeafNode<Dim>& leaf = *node.leaf;
     leaf.fit = refit_few<Dim>(all.sites, all.numbers, leaf.fit, cell, rules_);
-    leaf.sharp = false;
+    leaf.sharp.clear();
     set_sites(leaf, std::move(all.sites));
     change.changed.extend(bounds(node));
     change.nodes_touched = 1;
@@ -214,25 +214,47 @@ bool Tree<Dim>::set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<D
 }
 
 template <int Dim>
-void Tree<Dim>::sharpen() {
-  sharpen(root_, {});
+void Tree<Dim>::sharpen(Node<Dim>& node, const Cell<Dim>& cell) {
+  if (node.leaf) sharpen(*node.leaf, cell);
+  if (!node.inner || node.inner->sharp) return;
+  InnerNode<Dim>& inner = *node.inner;
+  parallel_for(Cell<Dim>::kChildren, inner.totals.sites >= static_cast<std::int64_t>(kParallelPoints) ? 1 : Cell<Dim>::kChildren,
+               [&](std::size_t c) { sharpen(inner.children[c], cell.child(static_cast<int>(c))); });
+  inner.sharp = true;
+}
+
+/// The same fit again, with more patience.
+template <int Dim>
+void Tree<Dim>::sharpen(LeafNode<Dim>& leaf, const Cell<Dim>& cell) const {
+  if (leaf.sharp.size() == leaf.fit.patches.size()) return;
+  FitRules<Dim> rules = rules_;
+  rules.sharp = true;
+  GatheredSites<Dim> sites{SiteView<Dim>(leaf.sites)};
+  const auto again = fit(sites, nullptr, cell, rules);
+  leaf.sharp.clear();
+  for (const Patch<Dim>& patch : again->patches) leaf.sharp.push_back(patch.surface_to_data);
 }
 
 template <int Dim>
-void Tree<Dim>::sharpen(Node<Dim>& node, const Cell<Dim>& cell) {
-  if (node.inner && !node.inner->sharp) {
-    InnerNode<Dim>& inner = *node.inner;
-    parallel_for(Cell<Dim>::kChildren, inner.totals.sites >= static_cast<std::int64_t>(kParallelPoints) ? 1 : Cell<Dim>::kChildren,
-                 [&](std::size_t c) { sharpen(inner.children[c], cell.child(static_cast<int>(c))); });
-    sum_up(inner, cell);
-    inner.sharp = true;
-  }
-  if (!node.leaf || node.leaf->sharp || node.leaf->fit.patches.empty()) return;
-  FitRules<Dim> rules = rules_;
-  rules.sharp = true;
-  GatheredSites<Dim> sites{SiteView<Dim>(node.leaf->sites)};
-  node.leaf->fit.patches = std::move(fit(sites, nullptr, cell, rules)->patches);
-  node.leaf->sharp = true;
+float Tree<Dim>::sharp_surface_to_data() {
+  const float known = totals().surface_to_data;
+  const float enough = known * (1.0F - 1e-6F);  // A sharp bound as large is at most 10 % above the truth, so the known one is.
+  const float found = sharp_until(root_, {}, enough);
+  return found >= enough ? known : found;
+}
+
+/// The largest sharp bound below a node, or one of them that is enough.
+template <int Dim>
+float Tree<Dim>::sharp_until(Node<Dim>& node, const Cell<Dim>& cell, float enough) const {
+  float most = 0.0F;
+  if (node.inner)
+    for (int c = 0; c < Cell<Dim>::kChildren && most < enough; ++c)
+      most = std::max(most, sharp_until(node.inner->children[c], cell.child(c), enough));
+  if (!node.leaf) return most;
+  sharpen(*node.leaf, cell);
+  for (const float bound : node.leaf->sharp) most = std::max(most, bound);
+  if (!node.leaf->fit.loose.empty()) most = std::max(most, loose_patch<Dim>(node.leaf->sites[node.leaf->fit.loose[0]], rules_).surface_to_data);
+  return most;
 }
 
 template <int Dim>

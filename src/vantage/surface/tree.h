@@ -33,8 +33,11 @@ class Tree {
   Change<Dim> insert(std::span<const Site<Dim>> sites);
   Change<Dim> remove(std::span<const Site<Dim>> sites);
 
-  /// Makes all bounds at most 10 % larger than the truth: those of updates only are within eta. Cost follows what was updated since the last time.
-  void sharpen();
+  /// Works out sharp bounds of surface_to_data for all leaves; those of updates only are within the limit. Cost follows what was updated since.
+  void sharpen() { sharpen(root_, {}); }
+  /// surface_to_data of the whole, at most 10 % above the truth. If some patch has nearly reached the limit, it is what updates know; looking for
+  /// one is mostly cheap.
+  [[nodiscard]] float sharp_surface_to_data();
 
   [[nodiscard]] Totals totals() const { return totals(root_, Cell<Dim>{}); }
   [[nodiscard]] const Node<Dim>& root() const { return root_; }
@@ -56,6 +59,8 @@ class Tree {
   /// nullopt: the cell must be split.
   std::optional<CellFit<Dim>> fit(GatheredSites<Dim>& sites, const Moments<Dim>* moments, const Cell<Dim>& cell, const FitRules<Dim>& rules) const;
   void sharpen(Node<Dim>& node, const Cell<Dim>& cell);
+  void sharpen(LeafNode<Dim>& leaf, const Cell<Dim>& cell) const;
+  float sharp_until(Node<Dim>& node, const Cell<Dim>& cell, float enough) const;
   std::unique_ptr<Proof<Dim>> prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const;
   Box<Dim> bounds(const Node<Dim>& node) const;
   Totals totals(const Node<Dim>& node, const Cell<Dim>& cell) const;

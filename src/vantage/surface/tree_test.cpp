@@ -95,7 +95,10 @@ TYPED_TEST(TreeOf, BoundsOfALeafAreWithinTenPerCentOfTheTruth) {
       for (const std::uint32_t i : leaf.fit.loose) least = std::min(least, (p - data[i]).norm());
       to_surface = std::max(to_surface, least);
     }
-    for (const auto& patch : leaf.fit.patches) {
+    for (std::size_t k = 0; k < leaf.fit.patches.size(); ++k) {
+      auto patch = leaf.fit.patches[k];
+      EXPECT_LE(leaf.sharp[k], patch.surface_to_data);
+      patch.surface_to_data = leaf.sharp[k];
       bound = std::max(bound, static_cast<double>(patch.data_to_surface));
       double to_data = 0.0, apart = 0.0;
       const int samples = patch.count > 2 ? 400 : 60;
