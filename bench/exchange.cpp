@@ -250,7 +250,9 @@ int main(int argc, char** argv) {
     const ThreadLimit one(1);
     std::vector<Points> scans;
     const std::vector<std::filesystem::path> paths(clouds.begin(), clouds.end());
-    for (AnyPoints& scan : read_scans(paths)) scans.push_back(std::get<Points>(std::move(scan)));
+    AnyScans read = read_scans(paths);
+    require(read.index() == 1, "the scans are not of space");
+    for (auto& scan : std::get<1>(read)) scans.push_back(std::move(scan.points));
     fmt::print("{} scans, eta {} m, one thread\n{:<14} {:<26} {:>10} {:>8} {:>8} {:>9} {:>8} {:>8} {:>7}\n", scans.size(), eta, "", "", "bytes",
                "a point", "kB/scan", "leaves", "error m", "seconds", "B/m2");
     rows("whole", {joined(scans)}, eta, 0.0);

@@ -44,31 +44,33 @@ struct Outcome {
 };
 
 template <int Dim>
-vantage::CertificateReport verify(const std::vector<vantage::Vec<Dim>>& points, const std::vector<vantage::Patch<Dim>>& patches,
+vantage::CertificateReport verify(std::span<const vantage::ScannedPoints<Dim>> scans, const std::vector<vantage::Patch<Dim>>& patches,
                                   const vantage::HausdorffTree<Dim>& tree, bool quiet) {
   const vantage::SurfaceStatistics s = tree.statistics();
   const StopSignals signals;
   LineProgress progress(quiet);
-  return vantage::check_certificate<Dim>(points, patches, {s.eta, s.data_to_surface, s.surface_to_data, !tree.options().paper}, &progress);
+  return vantage::check_certificate<Dim>(vantage::joined<Dim>(scans), patches, {s.eta, s.data_to_surface, s.surface_to_data, !tree.options().paper},
+                                         &progress);
 }
 
 template <int Dim>
-Outcome reconstruct(const std::vector<vantage::Vec<Dim>>& points, const vantage::SurfaceOptions& options, const Flags& flags) {
+Outcome reconstruct(const std::vector<vantage::ScannedPoints<Dim>>& scans, const vantage::SurfaceOptions& options, const Flags& flags) {
   const std::string& path = flags.path;
   vantage::Box<Dim> box;
-  for (const vantage::Vec<Dim>& p : points)
-    if (p.allFinite()) box.extend(p);
+  for (const vantage::ScannedPoints<Dim>& scan : scans)
+    for (const vantage::Vec<Dim>& p : scan.points)
+      if (p.allFinite()) box.extend(p);
   vantage::require(!box.empty(), "the clouds have no finite point");
   // A little larger than the points, so that none lies on its very faces.
   vantage::HausdorffTree<Dim> tree(box.grown(0.001 * box.size().maxCoeff() + 1e-6), options);
-  tree.insert(points);
+  for (const vantage::ScannedPoints<Dim>& scan : scans) tree.insert(scan.points, scan.sensor);
   const std::vector<vantage::Patch<Dim>> patches = tree.patches();
   if (!path.empty())
     vantage::write_file(path, path.ends_with(".glb") ? vantage::surface_as_glb<Dim>(patches, {}) : vantage::patches_as_ply<Dim>(patches));
   Outcome outcome{to_json(tree.statistics()), {}};
   outcome.surface["dim"] = Dim;
   if (flags.verify) {
-    outcome.report = verify<Dim>(points, patches, tree, flags.quiet);
+    outcome.report = verify<Dim>(scans, patches, tree, flags.quiet);
     outcome.surface["verify"] = to_json(*outcome.report);
   }
   return outcome;
@@ -117,6 +119,6 @@ int reconstruct_command(const Arguments& arguments) {
   set_options(list_options(options), "surface", sets);
   const vantage::ThreadLimit limit(flags.threads.empty() ? 0 : static_cast<int>(whole_number("--threads", flags.threads, 1, 1024)));
   const std::vector<std::filesystem::path> paths(clouds.begin(), clouds.end());
-  const vantage::AnyPoints points = vantage::read_clouds(paths);
-  return print_outcome(std::visit([&](const auto& p) { return reconstruct(p, options, flags); }, points), flags);
+  const vantage::AnyScans scans = vantage::read_scans(paths);
+  return print_outcome(std::visit([&](const auto& s) { return reconstruct(s, options, flags); }, scans), flags);
 }

@@ -1,22 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
 
-#include "vantage/geometry/vec.h"
+#include "vantage/surface/surface.h"
 
 namespace vantage {
 
-/// Points of a plane or of space, not-finite ones included, (N, Dim) [m].
-using AnyPoints = std::variant<std::vector<Vec<2>>, std::vector<Vec<3>>>;
+/// What a file holds of one scan.
+template <int Dim>
+struct ScannedPoints {
+  std::vector<Vec<Dim>> points;              ///< Not-finite ones included, (N, Dim) [m].
+  std::optional<SurfaceSensor<Dim>> sensor;  ///< Where a log knows it.
+};
 
-/// All points of point clouds, scan logs and run folders, one after the other. Throws io, or bad_input for a malformed file or a mixture of
-/// plane and space.
-[[nodiscard]] AnyPoints read_clouds(std::span<const std::filesystem::path> paths);
+/// Scans of a plane or of space.
+using AnyScans = std::variant<std::vector<ScannedPoints<2>>, std::vector<ScannedPoints<3>>>;
 
-/// The same, each cloud and each scan of a log for itself.
-[[nodiscard]] std::vector<AnyPoints> read_scans(std::span<const std::filesystem::path> paths);
+/// Each point cloud, and each scan of scan logs and run folders. Throws io, or bad_input for a malformed file or a mixture of plane and space.
+[[nodiscard]] AnyScans read_scans(std::span<const std::filesystem::path> paths);
+
+/// All their points, one scan after the other.
+template <int Dim>
+[[nodiscard]] std::vector<Vec<Dim>> joined(std::span<const ScannedPoints<Dim>> scans) {
+  std::vector<Vec<Dim>> all;
+  for (const ScannedPoints<Dim>& scan : scans) all.insert(all.end(), scan.points.begin(), scan.points.end());
+  return all;
+}
 
 }  // namespace vantage

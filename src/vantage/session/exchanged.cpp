@@ -52,16 +52,15 @@ void add_patches(const ExchangeMap& map, const std::string& where, Json& json) {
 
 }  // namespace
 
-ExchangeMap published_scans(std::span<const AnyPoints> scans, const std::string& source, double tolerance, const ExchangeMap& onto) {
+ExchangeMap published_scans(const AnyScans& scans, const std::string& source, double tolerance, const ExchangeMap& onto) {
   ExchangeMap map = onto;
-  if (scans.empty()) return map;
   std::visit(
-      [&]<int Dim>(const std::vector<Vec<Dim>>& /*first*/) {
+      [&]<int Dim>(const std::vector<ScannedPoints<Dim>>& all) {
         Publisher<Dim> publisher(source, tolerance);
         publisher.resume(map);
-        for (const AnyPoints& scan : scans) map.add(publisher.publish(std::get<std::vector<Vec<Dim>>>(scan)));
+        for (const ScannedPoints<Dim>& scan : all) map.add(publisher.publish(scan.points));
       },
-      scans.front());
+      scans);
   return map;
 }
 

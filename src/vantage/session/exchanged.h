@@ -11,7 +11,7 @@ namespace vantage {
 
 /// Scans of one source as deltas, each with what it adds to the ones before, after those that `onto` holds of this source. Throws bad_input for a
 /// tolerance [m] or a name that no delta may have, or scans of another dimension than `onto`.
-[[nodiscard]] ExchangeMap published_scans(std::span<const AnyPoints> scans, const std::string& source, double tolerance, const ExchangeMap& onto);
+[[nodiscard]] ExchangeMap published_scans(const AnyScans& scans, const std::string& source, double tolerance, const ExchangeMap& onto);
 
 /// `{"kind": "exchanged map", …}`: counts, bytes, certified errors [m], sources, hash. Every delta is decoded. Throws bad_input, naming `where`.
 [[nodiscard]] Json describe_map(const ExchangeMap& map, const std::string& where);

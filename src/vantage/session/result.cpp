@@ -53,6 +53,8 @@ Json to_json(const SurfaceStatistics& surface) {
           {"segments", surface.segments},
           {"loose_points", surface.loose_points},
           {"eta_m", surface.eta},
+          {"quantise_m", surface.quantise},
+          {"beyond_eta", surface.beyond_eta},
           {"hausdorff",
            {{"data_to_surface_m", surface.data_to_surface}, {"surface_to_data_m", surface.surface_to_data}, {"certified_m", surface.certified()}}}};
 }

@@ -64,7 +64,8 @@ struct HausdorffTree<Dim>::Impl {
   std::vector<Site<Dim>> snapped(std::span<const Vec<Dim>> points, const std::optional<SurfaceSensor<Dim>>& sensor, int sign) {
     std::uint32_t scan = 0;
     if (options.spacing == SurfaceOptions::Spacing::sensor) {
-      require(sensor.has_value(), "surface.spacing = sensor: a scan needs its position and the angle between its rays");
+      require(sensor.has_value(),
+              "surface.spacing = sensor: the points' scanner is not known; scan logs and run folders know it, point clouds do not");
       scan = spacing.number({sensor->position - tree.rules().snap.cube().low, sensor->step});
     }
     std::vector<Site<Dim>> sites;
