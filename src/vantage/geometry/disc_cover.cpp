@@ -104,6 +104,12 @@ std::optional<Place> find_uncovered(const ConvexRegion<2>& region, const Feet<2>
   const double serves = limit * (1.0 - kShrink);
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const double radius2 = serves * serves - points.height2[i]; radius2 > 0.0) discs.push_back({points.at[0][i], points.at[1][i], radius2});
+  const auto holds_all = [&](const Disc& d) {
+    for (int i = 0; i < region.count; ++i)
+      if ((region.vertices[i] - Place(d.x, d.y)).squaredNorm() > d.radius2) return false;
+    return true;
+  };
+  if (std::any_of(discs.begin(), discs.end(), holds_all)) return std::nullopt;
   for (int i = 0; i < region.count; ++i) {
     const Place& p = region.vertices[i];
     const auto holds = [&](const Disc& d) {

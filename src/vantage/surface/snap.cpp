@@ -84,12 +84,15 @@ void sort_sites(std::vector<Site<Dim>>& sites) {
     from[i] = {0, sites[i]};
     for (int a = 0; a < Dim; ++a) from[i].key |= ((table[sites[i][a] >> 24] << (8 * Dim)) | table[(sites[i][a] >> 16) & 255U]) << a;
   }
-  for (int shift = 0; shift < 16 * Dim; shift += kDigit) {
-    std::array<std::uint32_t, (1 << kDigit) + 1> start{};
-    const auto digit = [shift](const Keyed<Dim>& item) { return (item.key >> shift) & ((1U << kDigit) - 1U); };
-    for (const auto& item : from) ++start[digit(item) + 1];
-    for (std::size_t d = 0; d < (1U << kDigit); ++d) start[d + 1] += start[d];
-    for (const auto& item : from) to[start[digit(item)]++] = item;
+  constexpr int kRounds = (16 * Dim + kDigit - 1) / kDigit;
+  constexpr std::uint64_t kMask = (1U << kDigit) - 1U;
+  std::vector<std::array<std::uint32_t, kRounds>> start(kMask + 2);
+  for (const auto& item : from)
+    for (int round = 0; round < kRounds; ++round) ++start[((item.key >> (round * kDigit)) & kMask) + 1][round];
+  for (std::size_t digit = 0; digit <= kMask; ++digit)
+    for (int round = 0; round < kRounds; ++round) start[digit + 1][round] += start[digit][round];
+  for (int round = 0; round < kRounds; ++round) {
+    for (const auto& item : from) to[start[(item.key >> (round * kDigit)) & kMask][round]++] = item;
     std::swap(from, to);
   }
   for (std::size_t i = 0; i < sites.size(); ++i) sites[i] = from[i].site;

@@ -38,17 +38,19 @@ template <int Dim, class Numbers>
   return a[axis] < b[axis];
 }
 
+template <int Dim>
+[[nodiscard]] bool same_place(const Site<Dim>& a, const Site<Dim>& b) {
+  bool same = true;
+  for (int axis = 0; axis < Dim; ++axis) same &= a[axis] == b[axis];
+  return same;
+}
+
 /// The total order of sites: along the curve, those in one place by their scans.
 template <int Dim>
 [[nodiscard]] inline bool morton_less(const Site<Dim>& a, const Site<Dim>& b) {
-  if (curve_less<Dim>(a, b)) return true;
-  return std::equal(a.begin(), a.begin() + Dim, b.begin()) && scan_of(a) < scan_of(b);
+  return same_place<Dim>(a, b) ? scan_of(a) < scan_of(b) : curve_less<Dim>(a, b);
 }
 
-template <int Dim>
-[[nodiscard]] bool same_place(const Site<Dim>& a, const Site<Dim>& b) {
-  return std::equal(a.begin(), a.begin() + Dim, b.begin());
-}
 /// In one place and from one scan: such sites are one, and their counts add up (to kMostCount; there they stay).
 template <int Dim>
 [[nodiscard]] bool same_site(const Site<Dim>& a, const Site<Dim>& b) {
