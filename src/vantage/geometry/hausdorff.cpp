@@ -41,8 +41,8 @@ class Search {
  public:
   using Place = typename ConvexRegion<Rank>::Place;
 
-  Search(const ConvexRegion<Rank>& region, Arena<Rank>& arena, double limit, bool sharp)
-      : region_(region), edges_(region), arena_(arena), limit_(limit), sharp_(sharp || !std::isfinite(limit)) {}
+  Search(const ConvexRegion<Rank>& region, Arena<Rank>& arena, double limit, double enough)
+      : region_(region), edges_(region), arena_(arena), limit_(limit), enough_(std::isfinite(limit) ? std::max(enough, 1e-6) * limit : 0.0) {}
 
   /// A place farther away than the limit, once a search has found one.
   [[nodiscard]] const Place& farthest() const { return farthest_; }
@@ -102,7 +102,7 @@ class Search {
   RegionEdges<Rank> edges_;
   Arena<Rank>& arena_;
   double limit_;
-  bool sharp_;
+  double enough_;
   Place farthest_ = Place::Zero();
   double lower_ = 0.0, upper_ = 0.0, tiny_ = 0.0;
 
@@ -113,10 +113,7 @@ class Search {
     farthest_ = place;
     return lower_ <= limit_;
   }
-  [[nodiscard]] double good_enough() const {
-    if (!sharp_) return limit_;
-    return std::min(limit_, std::max(kRatio * lower_, std::isfinite(limit_) ? 1e-6 * limit_ : 0.0));
-  }
+  [[nodiscard]] double good_enough() const { return std::min(limit_, std::max(kRatio * lower_, enough_)); }
 
   [[nodiscard]] double distance2(std::size_t i, const Place& p) const {
     double sum = arena_.height2[i];
@@ -245,10 +242,10 @@ bool passes_limit(const ConvexRegion<2>& region, const Feet<2>& points, double l
   return best2 > limit * limit;
 }
 
-CoverRadius<2> branch_and_bound(const ConvexRegion<2>& region, const Feet<2>& points, double limit, bool sharp) {
+CoverRadius<2> branch_and_bound(const ConvexRegion<2>& region, const Feet<2>& points, double limit, double enough) {
   constexpr int Rank = 2;
   thread_local Arena<Rank> arena;
-  Search<Rank> search(region, arena, limit, sharp);
+  Search<Rank> search(region, arena, limit, enough);
   std::optional<double> radius;
   if (points.size() >= kManyFeet) {
     ConvexRegion<Rank>::Place low = region.vertices[0], high = low;
@@ -273,19 +270,21 @@ CoverRadius<2> branch_and_bound(const ConvexRegion<2>& region, const Feet<2>& po
 template <>
 CoverRadius<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, double limit, const CoverSearch<2>& search) {
   constexpr double kWider = 1.0 + 1e-3;
+  constexpr double kRoom = 0.8;  // Bounds of many feet leave so much, that they outlast updates.
+  constexpr std::size_t kRoomFeet = 256;
   if (region.count == 0) return {0.0, {}};
   if (points.size() == 0) return {std::nullopt, region.vertices[0]};
-  if (!std::isfinite(limit)) return branch_and_bound(region, points, limit, true);
-  // A sharp search decides as any other does; then it looks for the radius without that limit in its way.
+  if (!std::isfinite(limit)) return branch_and_bound(region, points, limit, 0.0);
+  // All searches decide alike; then one that wants more looks for the radius without that limit in its way.
   if (search.first != nullptr && passes_limit(region, points, limit, *search.first)) return {std::nullopt, *search.first};
   CoverRadius<2> covering{limit, {}};
   if (points.size() > kFewFeet) {
-    covering = branch_and_bound(region, points, limit, false);
+    covering = branch_and_bound(region, points, limit, points.size() >= kRoomFeet ? kRoom : 1.0);
   } else if (const auto uncovered = find_uncovered(region, points, limit)) {
     covering = {std::nullopt, *uncovered};
   }
-  if (!search.sharp || !covering.radius) return covering;
-  const double radius = branch_and_bound(region, points, kWider * limit, true).radius.value_or(limit);
+  if (!covering.radius || *covering.radius <= search.enough * limit) return covering;
+  const double radius = branch_and_bound(region, points, kWider * limit, search.enough).radius.value_or(limit);
   return {std::min(limit, radius), {}};
 }
 

@@ -35,7 +35,7 @@ struct CoverRadius {
 /// How hard to look.
 template <int Rank>
 struct CoverSearch {
-  bool sharp = false;  ///< The radius is at most 10 % above the truth (or 10^-6 of a finite limit); else any bound up to the limit will do.
+  double enough = 1.0;  ///< A bound up to this share of the limit will do; a larger one is at most 10 % above the truth (or 10^-6 of the limit).
   const typename ConvexRegion<Rank>::Place* first = nullptr;  ///< A place to look at first, if the region has it.
 };
 
@@ -57,7 +57,7 @@ CoverRadius<2> cover(const ConvexRegion<2>& region, const Feet<2>& points, doubl
 /// The sharp radius alone.
 template <int Rank>
 [[nodiscard]] std::optional<double> covering_radius(const ConvexRegion<Rank>& region, const Feet<Rank>& points, double limit) {
-  return cover<Rank>(region, points, limit, {true, nullptr}).radius;
+  return cover<Rank>(region, points, limit, {0.0, nullptr}).radius;
 }
 
 }  // namespace vantage

@@ -33,8 +33,9 @@ class FewSites {
     find_parts<Dim>(sites_, rules_.snap, reach(sites_), parts);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const auto part = parts[p];
-      const bool known =
-          parts.size() > 1 && part.size() > 2 && std::none_of(part.begin(), part.end(), [&](auto i) { return numbers[i] == kNewSite; });
+      // With spacing the reach is another one for other sites, and so may the parts be.
+      const bool known = rules_.spacing == nullptr && parts.size() > 1 && part.size() > 2 &&
+                         std::none_of(part.begin(), part.end(), [&](auto i) { return numbers[i] == kNewSite; });
       if (!known || !take_over(part, numbers, before)) carry_whole(part, parts.size() == 1);
     }
     std::sort(fit_.loose.begin(), fit_.loose.end());
@@ -151,12 +152,24 @@ bool sample_rejects(const SiteView<Dim>& sites, const Cell<Dim>& cell, const Fra
 }  // namespace
 
 template <int Dim>
-std::optional<CellFit<Dim>> fit_cell(GatheredSites<Dim>& sites, const Moments<Dim>* known, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+std::optional<CellFit<Dim>> fit_cell(GatheredSites<Dim>& sites, const Moments<Dim>* known, const Cell<Dim>& cell, const FitRules<Dim>& rules,
+                                     Refusal<Dim>* refusal) {
   const bool few = sites.size() <= kFewSites;
   if (few && !rules.paper) return FewSites<Dim>(sites.all(), cell, rules).fit();
-  const Frame<Dim> frame = known != nullptr ? principal_frame(*known, rules.snap.step()) : frame_of<Dim>(sites.all(), cell, rules);
-  if (few || !sample_rejects<Dim>(sites.view(), cell, frame, rules))
-    if (const auto one = fit_flat<Dim>(sites.all(), frame, rules, &cell, Dim - 1)) return CellFit<Dim>{{*one}, {}, {}};
+  const Moments<Dim> sums = known != nullptr ? *known : moments<Dim>(sites.all(), cell.low, cell.bits);
+  const Frame<Dim> frame = principal_frame(sums, rules.snap.step());
+  if (few || !sample_rejects<Dim>(sites.view(), cell, frame, rules)) {
+    const bool plain = !rules.paper && rules.spacing == nullptr && !rules.sharp;
+    FlatReport<Dim> report;
+    const bool large = plain && sites.size() >= kManySites;
+    if (auto one = fit_flat<Dim>(sites.all(), frame, rules, &cell, Dim - 1, large ? &report : nullptr)) {
+      if (plain) set_limit_bounds(*one, rules);
+      CellFit<Dim> fit{{*one}, {}, {}, nullptr};
+      if (report.surface > 0.0) fit.standing = std::make_unique<Standing<Dim>>(Standing<Dim>{sums, report.data, report.surface});
+      return fit;
+    }
+    if (refusal != nullptr) *refusal = report.refusal;
+  }
   if (!rules.paper) return std::nullopt;
   return fit_two<Dim>(sites, frame, cell, rules);
 }
@@ -170,7 +183,7 @@ CellFit<Dim> refit_few(std::span<const Site<Dim>> sites, std::span<const std::ui
 template <int Dim>
 CellFit<Dim> fit_at_limit(std::span<const Site<Dim>> sites, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
   const Frame<Dim> frame = frame_of<Dim>(sites, cell, rules);
-  if (rules.paper) return {{force_plane<Dim>(sites, frame, rules)}, {}, {}};
+  if (rules.paper) return {{force_plane<Dim>(sites, frame, rules)}, {}, {}, nullptr};
   CellFit<Dim> fit;
   std::vector<Site<Dim>> carried;
   for (std::uint32_t i = 0; i < sites.size(); ++i) {
@@ -188,7 +201,7 @@ CellFit<Dim> fit_at_limit(std::span<const Site<Dim>> sites, const Cell<Dim>& cel
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                                                                       \
-  template std::optional<CellFit<D>> fit_cell<D>(GatheredSites<D>&, const Moments<D>*, const Cell<D>&, const FitRules<D>&);                          \
+  template std::optional<CellFit<D>> fit_cell<D>(GatheredSites<D>&, const Moments<D>*, const Cell<D>&, const FitRules<D>&, Refusal<D>*);             \
   template CellFit<D> refit_few<D>(std::span<const Site<D>>, std::span<const std::uint32_t>, const CellFit<D>&, const Cell<D>&, const FitRules<D>&); \
   template CellFit<D> fit_at_limit<D>(std::span<const Site<D>>, const Cell<D>&, const FitRules<D>&);
 VANTAGE_INSTANTIATE(2)

@@ -94,7 +94,7 @@ class Attempts {
       : points_(points),
         limits_(limits),
         most_each_(Rank == 1 ? 2.0 * limits.surface : (paper ? kPi : kSparse) * limits.surface * limits.surface),
-        search_{sharp, nullptr} {}
+        search_{sharp ? 0.0 : 1.0, nullptr} {}
 
   /// Both one-sided errors, if they are within the limit.
   std::optional<Errors> errors(const ConvexRegion<Rank>& region) {
@@ -104,16 +104,18 @@ class Attempts {
     const CoverRadius<Rank> covering = cover<Rank>(region, points_, limits_.surface, search_);
     if (covering.radius) return Errors{data, *covering.radius};
     hole_ = covering.farthest;  // Most likely the next region has it too.
-    search_.first = &hole_;
+    search_.first = &*hole_;
     return std::nullopt;
   }
+  /// Of the last region that has one.
+  [[nodiscard]] const std::optional<typename ConvexRegion<Rank>::Place>& hole() const { return hole_; }
 
  private:
   const Feet<Rank>& points_;
   Limits limits_;
   double most_each_;  ///< Length or area for each point: regions with more of it are not tried.
   CoverSearch<Rank> search_;
-  typename ConvexRegion<Rank>::Place hole_;
+  std::optional<typename ConvexRegion<Rank>::Place> hole_;
 };
 
 template <int Dim, int Rank>
@@ -150,26 +152,43 @@ double surface_limit(std::span<const Site<Dim>> sites, const Frame<Dim>& frame, 
 
 template <int Dim, int Rank>
 std::optional<Patch<Dim>> fit_rank(std::span<const Site<Dim>> sites, const Projected<Dim>& points, const Frame<Dim>& frame,
-                                   const FitRules<Dim>& rules, const Cell<Dim>* cell) {
+                                   const FitRules<Dim>& rules, const Cell<Dim>* cell, FlatReport<Dim>* report) {
   const Feet<Rank>& data = feet<Rank>(points);
-  for (const double height2 : data.height2)
-    if (height2 > rules.limit * rules.limit) return std::nullopt;
+  const auto farthest = std::max_element(data.height2.begin(), data.height2.end());
+  if (*farthest > rules.limit * rules.limit) {
+    if (report != nullptr && Rank == Dim - 1) report->refusal.off = sites[static_cast<std::size_t>(farthest - data.height2.begin())];
+    return std::nullopt;
+  }
   Attempts<Rank> attempts(data, {rules.limit, surface_limit<Rank>(sites, frame, rules)}, rules.sharp, rules.paper);
+  Errors bounds{};
   const auto attempt = [&](const ConvexRegion<Rank>& region) -> std::optional<Patch<Dim>> {
     if (region.count > Patch<Dim>::kMaxVertices) return std::nullopt;
     const auto errors = attempts.errors(region);
     if (!errors) return std::nullopt;
+    bounds = *errors;
     return make_patch(region, *errors, frame, rules.snap);
   };
   std::optional<Patch<Dim>> patch;
+  std::optional<typename ConvexRegion<Rank>::Place> in_cell;
   if constexpr (Rank == Dim - 1) {
     if (cell != nullptr) {
       const auto region = clip_to_box(frame, cell->box(rules.snap.step()));
       patch = attempt(region);
+      if (patch && report != nullptr) {
+        report->data = bounds.data_to_surface;
+        report->surface = bounds.surface_to_data;
+      }
+      in_cell = attempts.hole();
     }
     if (!patch && rules.paper) patch = attempt(in_bounding_box<Dim>(sites, data, frame, rules.snap));
   }
   if (!patch && !rules.paper) patch = attempt(outline(data));
+  if constexpr (Rank == Dim - 1)
+    if (!patch && in_cell && report != nullptr) {
+      const auto place = [&](const auto& hole) { return Vec<Dim>(frame.origin + frame.axes.template leftCols<Rank>() * hole); };
+      const Vec<Dim> among = place(*attempts.hole());
+      report->refusal.holes = {place(*in_cell), among, extreme_sites<Dim>(sites, frame, rules.snap)};
+    }
   return patch;
 }
 
@@ -194,16 +213,61 @@ std::optional<Patch<Dim>> fit_point(std::span<const Site<Dim>> sites, const Fram
 
 template <int Dim>
 std::optional<Patch<Dim>> fit_flat(std::span<const Site<Dim>> sites, const Frame<Dim>& frame, const FitRules<Dim>& rules, const Cell<Dim>* cell,
-                                   int most_rank) {
+                                   int most_rank, FlatReport<Dim>* report) {
   thread_local Projected<Dim> points;
   points.set(sites, frame, rules.snap);
   const int rank = rules.paper ? Dim - 1 : points.rank(kThin * rules.limit);
   if (rank > most_rank) return std::nullopt;
   switch (rank) {
     case 0: return fit_point<Dim>(sites, frame, rules);
-    case 1: return fit_rank<Dim, 1>(sites, points, frame, rules, cell);
-    default: return fit_rank<Dim, Dim - 1>(sites, points, frame, rules, cell);
+    case 1: return fit_rank<Dim, 1>(sites, points, frame, rules, cell, report);
+    default: return fit_rank<Dim, Dim - 1>(sites, points, frame, rules, cell, report);
   }
+}
+
+template <int Dim>
+void set_limit_bounds(Patch<Dim>& patch, const FitRules<Dim>& rules) {
+  patch.data_to_surface = patch.surface_to_data = rounded_up(rules.limit + rules.snap.slack());
+}
+
+namespace {
+
+constexpr double kCertain = 1.0 - 1e-4;  ///< Of the limit: bounds that pass it are not trusted to decide as fit_flat does.
+
+/// The plane clipped to the cell, if fit_flat would try it.
+template <int Dim>
+ConvexRegion<Dim - 1> clipped_plane(const Moments<Dim>& moments, const Frame<Dim>& frame, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+  auto region = clip_to_box(frame, cell.box(rules.snap.step()));
+  double most = static_cast<double>(moments.count) * (Dim == 2 ? 2.0 * rules.limit : kSparse * rules.limit * rules.limit);
+  if (region.count > Patch<Dim>::kMaxVertices || region.measure() > most) region.count = 0;
+  if (!(frame.variance[Dim - 2] > kThin * kThin * rules.limit * rules.limit)) region.count = 0;  // Of lower rank, perhaps.
+  return region;
+}
+
+template <int Dim>
+double farthest_corner(const Patch<Dim>& from, const Patch<Dim>& to) {
+  double most = 0.0;  // Of a convex function, in a corner.
+  for (const Vec<Dim>& corner : from.corners()) most = std::max(most, distance(to, corner));
+  return most;
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<std::pair<Patch<Dim>, Standing<Dim>>> advance(const Patch<Dim>& patch, const Standing<Dim>& standing, std::span<const Site<Dim>> added,
+                                                            const Cell<Dim>& cell, const FitRules<Dim>& rules) {
+  Standing<Dim> next = standing;
+  next.moments.add(moments<Dim>(added, cell.low, cell.bits));
+  const Frame<Dim> frame = principal_frame(next.moments, rules.snap.step());
+  const auto region = clipped_plane(next.moments, frame, cell, rules);
+  if (region.count == 0) return std::nullopt;
+  Patch<Dim> moved = make_patch(region, Errors{0.0, 0.0}, frame, rules.snap);
+  set_limit_bounds(moved, rules);
+  next.data += farthest_corner(patch, moved);
+  next.surface += farthest_corner(moved, patch);
+  for (const Site<Dim>& site : added) next.data = std::max(next.data, distance(moved, rules.snap.world(rules.snap.local(site))));
+  if (std::max(next.data, next.surface) > kCertain * rules.limit) return std::nullopt;
+  return std::pair{moved, next};
 }
 
 template <int Dim>
@@ -235,7 +299,7 @@ std::optional<Patch<Dim>> fit_chord(std::span<const Site<Dim>> sites, const FitR
   using Place = ConvexRegion<1>::Place;
   const double apart = rules.spacing != nullptr ? rules.spacing->on_line(sites, from + 0.5 * way, along) : 0.0;
   const double limit = std::max(rules.limit, apart);
-  const CoverRadius<1> covering = cover<1>(ConvexRegion<1>::box(Place(0.0), Place(length)), feet, limit, {rules.sharp, nullptr});
+  const CoverRadius<1> covering = cover<1>(ConvexRegion<1>::box(Place(0.0), Place(length)), feet, limit, {rules.sharp ? 0.0 : 1.0, nullptr});
   if (!covering.radius) return std::nullopt;
   Patch<Dim> patch = segment_patch<Dim>(rules.snap.world(from), rules.snap.world(from + way));
   patch.data_to_surface = rounded_up(std::sqrt(data2) + rules.snap.slack());
@@ -268,11 +332,14 @@ Patch<Dim> loose_patch(const Site<Dim>& site, const FitRules<Dim>& rules) {
   return patch;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                      \
-  template std::optional<Patch<D>> fit_flat<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&, const Cell<D>*, int); \
-  template std::optional<Patch<D>> fit_chord<D>(std::span<const Site<D>>, const FitRules<D>&, double);                              \
-  template Patch<D> force_plane<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&);                                  \
-  template Patch<D> pair_patch<D>(const Site<D>&, const Site<D>&, const Snap<D>&);                                                  \
+#define VANTAGE_INSTANTIATE(D)                                                                                                                       \
+  template std::optional<Patch<D>> fit_flat<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&, const Cell<D>*, int, FlatReport<D>*);  \
+  template std::optional<std::pair<Patch<D>, Standing<D>>> advance<D>(const Patch<D>&, const Standing<D>&, std::span<const Site<D>>, const Cell<D>&, \
+                                                                      const FitRules<D>&);                                                           \
+  template void set_limit_bounds<D>(Patch<D>&, const FitRules<D>&);                                                                                  \
+  template std::optional<Patch<D>> fit_chord<D>(std::span<const Site<D>>, const FitRules<D>&, double);                                               \
+  template Patch<D> force_plane<D>(std::span<const Site<D>>, const Frame<D>&, const FitRules<D>&);                                                   \
+  template Patch<D> pair_patch<D>(const Site<D>&, const Site<D>&, const Snap<D>&);                                                                   \
   template Patch<D> loose_patch<D>(const Site<D>&, const FitRules<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

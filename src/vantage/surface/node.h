@@ -15,6 +15,8 @@ template <int Dim>
 class Proof;
 template <int Dim>
 struct InnerNode;
+template <int Dim>
+struct Refusal;
 
 /// Sums over a subtree, by the names of SurfaceStatistics.
 struct Totals {
@@ -30,7 +32,11 @@ struct LeafNode {
   std::vector<Site<Dim>> sites;  ///< In Morton order.
   CellFit<Dim> fit;              ///< Of its loose sites, those in one place are there once.
   std::int64_t points = 0;       ///< That the sites stand for.
-  std::vector<float> sharp;      ///< surface_to_data of each patch, at most 10 % above the truth; empty: not worked out yet.
+  /// Bounds of each patch, at most 10 % above the truth; empty: not worked out yet.
+  struct Sharp {
+    float data_to_surface, surface_to_data;
+  };
+  std::vector<Sharp> sharp;
 };
 
 /// Node of the Hausdorff tree; an empty leaf has neither.
@@ -47,6 +53,7 @@ struct InnerNode {
   bool sharp = false;                     ///< Sharp bounds are worked out everywhere below.
   std::unique_ptr<Proof<Dim>> proof;      ///< That the cell had to be split; null if none was found.
   std::unique_ptr<Moments<Dim>> moments;  ///< Of all sites below, in large cells without a proof: these are asked again.
+  std::unique_ptr<Refusal<Dim>> refusal;  ///< Why the plane of a large cell without a proof failed the last time, if known.
 };
 
 }  // namespace vantage

@@ -108,7 +108,10 @@ struct HausdorffTree<Dim>::Impl {
     if (node.leaf) {
       for (std::size_t i = 0; i < node.leaf->fit.patches.size(); ++i) {
         Patch<Dim> patch = node.leaf->fit.patches[i];
-        if (box == nullptr) patch.surface_to_data = node.leaf->sharp[i];
+        if (box == nullptr) {
+          patch.data_to_surface = node.leaf->sharp[i].data_to_surface;
+          patch.surface_to_data = node.leaf->sharp[i].surface_to_data;
+        }
         take(patch);
       }
       for (const std::uint32_t i : node.leaf->fit.loose) take(loose_patch<Dim>(node.leaf->sites[i], rules));
@@ -189,8 +192,9 @@ SurfaceStatistics HausdorffTree<Dim>::statistics() const {
   out.eta = impl_->options.eta;
   out.quantise = impl_->options.quantise;
   out.beyond_eta = totals.beyond_eta;
-  out.data_to_surface = totals.data_to_surface;
-  out.surface_to_data = impl_->tree.sharp_surface_to_data();
+  const auto bounds = impl_->tree.sharp_bounds();
+  out.data_to_surface = bounds.data_to_surface;
+  out.surface_to_data = bounds.surface_to_data;
   if (impl_->options.paper) out.data_to_surface = farthest_site(impl_->tree);
   return out;
 }

@@ -70,6 +70,25 @@ TYPED_TEST(Surface, TreeDependsOnTheSetAlone) {
   expect_same(removed, HausdorffTree<Dim>(domain<Dim>(), {}));
 }
 
+TYPED_TEST(Surface, DenseScansOneAfterTheOtherEndInTheSameTree) {
+  constexpr int Dim = TypeParam::value;
+  for (const double eta : {0.3, 0.8, 2.0}) {
+    const SurfaceOptions options{.eta = eta};
+    Cloud<Dim> all;
+    HausdorffTree<Dim> tree(domain<Dim>(), options);
+    for (int scan = 0; scan < 10; ++scan) {  // Large leaves stand, planes are refused, and both come to an end.
+      const auto points = scene<Dim>(100 + scan, scan % 3 == 0 ? 8000 : 700);
+      tree.insert(points);
+      all.insert(all.end(), points.begin(), points.end());
+      if (scan % 2 == 0) expect_same(tree_of<Dim>(all, options), tree);
+    }
+    const auto last = scene<Dim>(109, 8000);
+    tree.remove(last);
+    tree.insert(last);
+    expect_same(tree_of<Dim>(all, options), tree);
+  }
+}
+
 TYPED_TEST(Surface, RandomHistoriesEndInTheSameTree) {
   constexpr int Dim = TypeParam::value;
   EXPECT_TRUE(rc::check([] {

@@ -119,6 +119,7 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
   GatheredSites<Dim> all{SiteView<Dim>(node)};
   inner.proof = prove(all.view(), cell);
   if (inner.proof) {
+    inner.refusal.reset();
     inner.moments.reset();
     return change;
   }
@@ -129,8 +130,12 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
     inner.moments.reset();
     inner.moments = std::make_unique<Moments<Dim>>(moments_below<Dim>(node, cell));
   }
+  if (inner.refusal && all_new &&
+      inner.refusal->holds(principal_frame(*inner.moments, rules_.snap.step()), all.view(), cell, rules_.snap, rules_.limit))
+    return change;
   Node<Dim> whole;
-  if (set_leaf(whole, cell, all, inner.moments.get())) {  // Prune.
+  inner.refusal = std::make_unique<Refusal<Dim>>();
+  if (set_leaf(whole, cell, all, inner.moments.get(), inner.refusal.get())) {  // Prune.
     change.changed.extend(bounds(node));
     change.changed.extend(bounds(whole));
     node = std::move(whole);
@@ -141,6 +146,8 @@ Change<Dim> Tree<Dim>::update(Node<Dim>& node, const Cell<Dim>& cell, std::span<
 
 template <int Dim>
 Change<Dim> Tree<Dim>::update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action) {
+  if (node.leaf && action == Action::insert)
+    if (Change<Dim> change; update_standing(*node.leaf, cell, sites, change)) return change;
   const std::span<const Site<Dim>> old = node.leaf ? std::span<const Site<Dim>>(node.leaf->sites) : std::span<const Site<Dim>>();
   Combined<Dim> all(old, sites, action == Action::insert);
   Change<Dim> change;
@@ -164,6 +171,28 @@ Change<Dim> Tree<Dim>::update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::
   return change;
 }
 
+/// Without reading what is there, but for copying it.
+template <int Dim>
+bool Tree<Dim>::update_standing(LeafNode<Dim>& leaf, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Change<Dim>& change) const {
+  if (!leaf.fit.standing) return false;
+  std::vector<Site<Dim>> all;
+  all.reserve(leaf.sites.size() + sites.size());
+  std::merge(leaf.sites.begin(), leaf.sites.end(), sites.begin(), sites.end(), std::back_inserter(all), morton_less<Dim>);
+  if (std::adjacent_find(all.begin(), all.end(), same_site<Dim>) != all.end()) return false;
+  const auto next = advance<Dim>(leaf.fit.patches[0], *leaf.fit.standing, sites, cell, rules_);
+  if (!next) return false;
+  change.changed.extend(leaf.fit.patches[0].bounds());
+  change.changed.extend(next->first.bounds());
+  change.nodes_touched = 1;
+  change.points_read = static_cast<std::int64_t>(sites.size());
+  leaf.fit.patches[0] = next->first;
+  *leaf.fit.standing = next->second;
+  leaf.sharp.clear();
+  for (const Site<Dim>& site : sites) leaf.points += count_of(site);
+  leaf.sites = std::move(all);
+  return true;
+}
+
 /// The node rule of Sec. IV.
 template <int Dim>
 Change<Dim> Tree<Dim>::build(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites) {
@@ -175,13 +204,15 @@ Change<Dim> Tree<Dim>::build(Node<Dim>& node, const Cell<Dim>& cell, std::span<c
   std::unique_ptr<Proof<Dim>> proof = prove(all.view(), cell);
   std::unique_ptr<Moments<Dim>> sums;
   if (!proof && sites.size() > kFewSites) sums = std::make_unique<Moments<Dim>>(moments<Dim>(sites, cell.low, cell.bits));
-  if (!proof && set_leaf(node, cell, all, sums.get())) {
+  auto refusal = sums ? std::make_unique<Refusal<Dim>>() : nullptr;
+  if (!proof && set_leaf(node, cell, all, sums.get(), refusal.get())) {
     change.changed = bounds(node);
     return change;
   }
   node.inner = std::make_unique<InnerNode<Dim>>();
   node.inner->proof = std::move(proof);
   node.inner->moments = std::move(sums);
+  node.inner->refusal = std::move(refusal);
   const auto parts = cell.split(sites);
   std::array<Change<Dim>, Cell<Dim>::kChildren> changes;
   parallel_for(Cell<Dim>::kChildren, sites.size() >= kParallelPoints ? 1 : Cell<Dim>::kChildren,
@@ -192,18 +223,18 @@ Change<Dim> Tree<Dim>::build(Node<Dim>& node, const Cell<Dim>& cell, std::span<c
 }
 
 template <int Dim>
-std::optional<CellFit<Dim>> Tree<Dim>::fit(GatheredSites<Dim>& sites, const Moments<Dim>* sums, const Cell<Dim>& cell,
-                                           const FitRules<Dim>& rules) const {
+std::optional<CellFit<Dim>> Tree<Dim>::fit(GatheredSites<Dim>& sites, const Moments<Dim>* sums, const Cell<Dim>& cell, const FitRules<Dim>& rules,
+                                           Refusal<Dim>* refusal) const {
   if (rules.paper && static_cast<std::int64_t>(sites.size()) < rules.min_points) return CellFit<Dim>{};
-  auto fit = fit_cell<Dim>(sites, sums, cell, rules);
+  auto fit = fit_cell<Dim>(sites, sums, cell, rules, refusal);
   if (!fit && cell.depth() >= max_depth_) fit = fit_at_limit<Dim>(sites.all(), cell, rules);
   return fit;
 }
 
 /// False: the cell must be split.
 template <int Dim>
-bool Tree<Dim>::set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>* sums) const {
-  auto whole = fit(sites, sums, cell, rules_);
+bool Tree<Dim>::set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>* sums, Refusal<Dim>* refusal) const {
+  auto whole = fit(sites, sums, cell, rules_, refusal);
   if (!whole) return false;
   const std::span<const Site<Dim>> all = sites.all();
   if (all.empty()) return true;
@@ -232,29 +263,38 @@ void Tree<Dim>::sharpen(LeafNode<Dim>& leaf, const Cell<Dim>& cell) const {
   GatheredSites<Dim> sites{SiteView<Dim>(leaf.sites)};
   const auto again = fit(sites, nullptr, cell, rules);
   leaf.sharp.clear();
-  for (const Patch<Dim>& patch : again->patches) leaf.sharp.push_back(patch.surface_to_data);
+  for (const Patch<Dim>& patch : again->patches) leaf.sharp.push_back({patch.data_to_surface, patch.surface_to_data});
 }
 
 template <int Dim>
-float Tree<Dim>::sharp_surface_to_data() {
-  const float known = totals().surface_to_data;
-  const float enough = known * (1.0F - 1e-6F);  // A sharp bound as large is at most 10 % above the truth, so the known one is.
-  const float found = sharp_until(root_, {}, enough);
-  return found >= enough ? known : found;
+typename LeafNode<Dim>::Sharp Tree<Dim>::sharp_bounds() {
+  const Totals known = totals();
+  // data_to_surface is found itself; a sharp surface_to_data as large as the known one is at most 10 % above the truth, so that one is.
+  const typename LeafNode<Dim>::Sharp enough{known.data_to_surface / 1.1F, known.surface_to_data * (1.0F - 1e-6F)};
+  typename LeafNode<Dim>::Sharp found{0.0F, 0.0F};
+  sharp_until(root_, {}, enough, found);
+  if (found.data_to_surface >= enough.data_to_surface) found.data_to_surface = known.data_to_surface;
+  if (found.surface_to_data >= enough.surface_to_data) found.surface_to_data = known.surface_to_data;
+  return found;
 }
 
-/// The largest sharp bound below a node, or one of them that is enough.
+/// The largest sharp bounds below a node, or some that are enough.
 template <int Dim>
-float Tree<Dim>::sharp_until(Node<Dim>& node, const Cell<Dim>& cell, float enough) const {
-  float most = 0.0F;
+void Tree<Dim>::sharp_until(Node<Dim>& node, const Cell<Dim>& cell, const typename LeafNode<Dim>::Sharp& enough,
+                            typename LeafNode<Dim>::Sharp& most) const {
+  const auto raise = [&most](float data, float surface) {
+    most.data_to_surface = std::max(most.data_to_surface, data);
+    most.surface_to_data = std::max(most.surface_to_data, surface);
+  };
+  if (most.data_to_surface >= enough.data_to_surface && most.surface_to_data >= enough.surface_to_data) return;
   if (node.inner)
-    for (int c = 0; c < Cell<Dim>::kChildren && most < enough; ++c)
-      most = std::max(most, sharp_until(node.inner->children[c], cell.child(c), enough));
-  if (!node.leaf) return most;
+    for (int c = 0; c < Cell<Dim>::kChildren; ++c) sharp_until(node.inner->children[c], cell.child(c), enough, most);
+  if (!node.leaf) return;
   sharpen(*node.leaf, cell);
-  for (const float bound : node.leaf->sharp) most = std::max(most, bound);
-  if (!node.leaf->fit.loose.empty()) most = std::max(most, loose_patch<Dim>(node.leaf->sites[node.leaf->fit.loose[0]], rules_).surface_to_data);
-  return most;
+  for (const auto& bounds : node.leaf->sharp) raise(bounds.data_to_surface, bounds.surface_to_data);
+  if (node.leaf->fit.loose.empty()) return;
+  const Patch<Dim> loose = loose_patch<Dim>(node.leaf->sites[node.leaf->fit.loose[0]], rules_);
+  raise(loose.data_to_surface, loose.surface_to_data);
 }
 
 template <int Dim>

@@ -35,9 +35,9 @@ class Tree {
 
   /// Works out sharp bounds of surface_to_data for all leaves; those of updates only are within the limit. Cost follows what was updated since.
   void sharpen() { sharpen(root_, {}); }
-  /// surface_to_data of the whole, at most 10 % above the truth. If some patch has nearly reached the limit, it is what updates know; looking for
-  /// one is mostly cheap.
-  [[nodiscard]] float sharp_surface_to_data();
+  /// Bounds of the whole, at most 10 % above those that the leaves have. If some patch has nearly reached the limit, it is what updates know; looking
+  /// for one is mostly cheap.
+  [[nodiscard]] typename LeafNode<Dim>::Sharp sharp_bounds();
 
   [[nodiscard]] Totals totals() const { return totals(root_, Cell<Dim>{}); }
   [[nodiscard]] const Node<Dim>& root() const { return root_; }
@@ -55,12 +55,15 @@ class Tree {
   Change<Dim> update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
   Change<Dim> build(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites);
 
-  bool set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>* moments) const;
+  bool set_leaf(Node<Dim>& node, const Cell<Dim>& cell, GatheredSites<Dim>& sites, const Moments<Dim>* moments,
+                Refusal<Dim>* refusal = nullptr) const;
   /// nullopt: the cell must be split.
-  std::optional<CellFit<Dim>> fit(GatheredSites<Dim>& sites, const Moments<Dim>* moments, const Cell<Dim>& cell, const FitRules<Dim>& rules) const;
+  std::optional<CellFit<Dim>> fit(GatheredSites<Dim>& sites, const Moments<Dim>* moments, const Cell<Dim>& cell, const FitRules<Dim>& rules,
+                                  Refusal<Dim>* refusal = nullptr) const;
   void sharpen(Node<Dim>& node, const Cell<Dim>& cell);
   void sharpen(LeafNode<Dim>& leaf, const Cell<Dim>& cell) const;
-  float sharp_until(Node<Dim>& node, const Cell<Dim>& cell, float enough) const;
+  void sharp_until(Node<Dim>& node, const Cell<Dim>& cell, const typename LeafNode<Dim>::Sharp& enough, typename LeafNode<Dim>::Sharp& most) const;
+  bool update_standing(LeafNode<Dim>& leaf, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Change<Dim>& change) const;
   std::unique_ptr<Proof<Dim>> prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const;
   Box<Dim> bounds(const Node<Dim>& node) const;
   Totals totals(const Node<Dim>& node, const Cell<Dim>& cell) const;

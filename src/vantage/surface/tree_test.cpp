@@ -97,8 +97,10 @@ TYPED_TEST(TreeOf, BoundsOfALeafAreWithinTenPerCentOfTheTruth) {
     }
     for (std::size_t k = 0; k < leaf.fit.patches.size(); ++k) {
       auto patch = leaf.fit.patches[k];
-      EXPECT_LE(leaf.sharp[k], patch.surface_to_data);
-      patch.surface_to_data = leaf.sharp[k];
+      EXPECT_LE(leaf.sharp[k].surface_to_data, patch.surface_to_data);
+      EXPECT_LE(leaf.sharp[k].data_to_surface, patch.data_to_surface);
+      patch.data_to_surface = leaf.sharp[k].data_to_surface;
+      patch.surface_to_data = leaf.sharp[k].surface_to_data;
       bound = std::max(bound, static_cast<double>(patch.data_to_surface));
       double to_data = 0.0, apart = 0.0;
       const int samples = patch.count > 2 ? 400 : 60;
@@ -160,6 +162,27 @@ TYPED_TEST(TreeOf, CostOfAScanFollowsTheScan) {
     // Nothing new: nothing read.
     EXPECT_EQ(tree.insert({}).points_read, 0);
   }
+}
+
+TYPED_TEST(TreeOf, APatchWithRoomToSpareTakesMorePointsUnread) {
+  constexpr int Dim = TypeParam::value;
+  Random random(31);
+  const auto wall = [&](int count, double off) {
+    std::vector<Vec<Dim>> points;
+    for (int i = 0; i < count; ++i) {
+      Vec<Dim> p = anywhere<Dim>(random, 19.0);
+      p[0] = 1.0 + 0.1 * p[1] + off * random.uniform(-1.0, 1.0);
+      points.push_back(p);
+    }
+    return sites_of<Dim>(points);
+  };
+  Tree<Dim> tree(rules<Dim>(2.0), 2.0, 14);
+  tree.insert(wall(20000, 0.1));
+  ASSERT_EQ(tree.totals().nodes, 1);
+  EXPECT_LE(tree.insert(wall(100, 0.2)).points_read, 100);
+  EXPECT_EQ(tree.totals().nodes, 1);
+  EXPECT_GT(tree.insert(wall(100, 6.0)).points_read, 20000);  // These are beside it.
+  EXPECT_GT(tree.totals().nodes, 1);
 }
 
 TYPED_TEST(TreeOf, TakingOutAndPuttingBackIsNoChange) {
