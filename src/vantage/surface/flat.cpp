@@ -86,15 +86,18 @@ struct Limits {
   double data, surface;
 };
 
+/// Length or area for each point: regions with more of it are not tried.
+template <int Rank>
+double most_for_each(double limit, bool paper) {
+  return Rank == 1 ? 2.0 * limit : (paper ? kPi : kSparse) * limit * limit;
+}
+
 /// Tries regions of one plane or line on its points.
 template <int Rank>
 class Attempts {
  public:
   Attempts(const Feet<Rank>& points, Limits limits, bool sharp, bool paper)
-      : points_(points),
-        limits_(limits),
-        most_each_(Rank == 1 ? 2.0 * limits.surface : (paper ? kPi : kSparse) * limits.surface * limits.surface),
-        search_{sharp ? 0.0 : 1.0, nullptr} {}
+      : points_(points), limits_(limits), most_each_(most_for_each<Rank>(limits.surface, paper)), search_{sharp ? 0.0 : 1.0, nullptr} {}
 
   /// Both one-sided errors, if they are within the limit.
   std::optional<Errors> errors(const ConvexRegion<Rank>& region) {
@@ -113,7 +116,7 @@ class Attempts {
  private:
   const Feet<Rank>& points_;
   Limits limits_;
-  double most_each_;  ///< Length or area for each point: regions with more of it are not tried.
+  double most_each_;
   CoverSearch<Rank> search_;
   std::optional<typename ConvexRegion<Rank>::Place> hole_;
 };
@@ -238,7 +241,7 @@ constexpr double kCertain = 1.0 - 1e-4;  ///< Of the limit: bounds that pass it 
 template <int Dim>
 ConvexRegion<Dim - 1> clipped_plane(const Moments<Dim>& moments, const Frame<Dim>& frame, const Cell<Dim>& cell, const FitRules<Dim>& rules) {
   auto region = clip_to_box(frame, cell.box(rules.snap.step()));
-  double most = static_cast<double>(moments.count) * (Dim == 2 ? 2.0 * rules.limit : kSparse * rules.limit * rules.limit);
+  double most = static_cast<double>(moments.count) * most_for_each<Dim - 1>(rules.limit, false);
   if (region.count > Patch<Dim>::kMaxVertices || region.measure() > most) region.count = 0;
   if (!(frame.variance[Dim - 2] > kThin * kThin * rules.limit * rules.limit)) region.count = 0;  // Of lower rank, perhaps.
   return region;

@@ -53,7 +53,7 @@ bool Refusal<Dim>::holds(const Frame<Dim>& frame, const SiteView<Dim>& sites, co
 
 template <int Dim>
 std::vector<Site<Dim>> extreme_sites(std::span<const Site<Dim>> sites, const Frame<Dim>& frame, const Snap<Dim>& snap) {
-  constexpr int kWays = Dim == 2 ? 2 : 8;  // Every 180 or 45 degrees.
+  constexpr int kWays = 2 << (2 * (Dim - 2));  // Every 180 or 45 degrees.
   std::array<InPlane<Dim>, kWays> ways;
   for (int i = 0; i < kWays; ++i) {
     const auto [sine, cosine] = sin_cos(2.0 * kPi * i / kWays);
