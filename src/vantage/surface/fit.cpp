@@ -191,10 +191,11 @@ CellFit<Dim> fit_at_limit(std::span<const Site<Dim>> sites, const Cell<Dim>& cel
     if (on_plane) carried.push_back(sites[i]);
     if (!on_plane) fit.loose.push_back(i);
   }
-  if (const auto patch = fit_flat<Dim>(carried, frame, rules, nullptr, Dim - 1)) {
-    fit.patches.push_back(*patch);
-    return fit;
-  }
+  if (static_cast<std::int64_t>(carried.size()) >= rules.min_points)
+    if (const auto patch = fit_flat<Dim>(carried, frame, rules, nullptr, Dim - 1)) {
+      fit.patches.push_back(*patch);
+      return fit;
+    }
   fit.loose.resize(sites.size());
   std::iota(fit.loose.begin(), fit.loose.end(), 0U);
   return fit;
