@@ -187,6 +187,19 @@ TEST(CertificateIn3d, DistancesAgreeWithTrianglesOfAFan) {
   }));
 }
 
+TYPED_TEST(CertificateOf, BoundsOfTheWholeAreWithinATenthOfTheTruth) {
+  constexpr int Dim = TypeParam::value;
+  Random random(41);
+  for (int trial = 0; trial < 60; ++trial) {
+    const double eta = std::array{0.05, 0.15, 0.5}[static_cast<std::size_t>(trial % 3)];
+    const auto cloud = clutter<Dim>(100 + trial, 50 + static_cast<int>(random.below(3000)));
+    const auto tree = tree_of<Dim>(cloud, eta);
+    const auto report = check<Dim>(cloud, tree.patches(), certificate_of(tree));
+    EXPECT_TRUE(report.holds()) << report.faults.front();
+    EXPECT_TRUE(report.loose.empty()) << trial << ": " << report.loose.front();
+  }
+}
+
 TYPED_TEST(CertificateOf, CorruptionIsCaught) {
   constexpr int Dim = TypeParam::value;
   const auto cloud = clutter<Dim>(3, 3000);

@@ -110,6 +110,12 @@ struct Cell {
     for (int a = 0; a < Dim; ++a) out.low[a] |= static_cast<std::uint32_t>((number >> a) & 1) << out.bits;
     return out;
   }
+  /// Number of the child that has the site.
+  [[nodiscard]] int child_with(const Site<Dim>& site) const {
+    int number = 0;
+    for (int a = 0; a < Dim; ++a) number |= static_cast<int>((site[a] >> (bits - 1)) & 1U) << a;
+    return number;
+  }
   /// From the cube's low corner, with steps of `step` [m].
   [[nodiscard]] Box<Dim> box(double step) const {
     Box<Dim> box;

@@ -9,6 +9,7 @@
 #include "vantage/surface/nearest.h"
 #include "vantage/surface/spacing.h"
 #include "vantage/surface/tree.h"
+#include "vantage/surface/whole.h"
 
 namespace vantage {
 namespace {
@@ -192,7 +193,7 @@ SurfaceStatistics HausdorffTree<Dim>::statistics() const {
   out.eta = impl_->options.eta;
   out.quantise = impl_->options.quantise;
   out.beyond_eta = totals.beyond_eta;
-  const auto bounds = impl_->tree.sharp_bounds();
+  const auto bounds = whole_errors(impl_->tree);
   out.data_to_surface = bounds.data_to_surface;
   out.surface_to_data = bounds.surface_to_data;
   if (impl_->options.paper) out.data_to_surface = farthest_site(impl_->tree);

@@ -267,37 +267,6 @@ void Tree<Dim>::sharpen(LeafNode<Dim>& leaf, const Cell<Dim>& cell) const {
 }
 
 template <int Dim>
-typename LeafNode<Dim>::Sharp Tree<Dim>::sharp_bounds() {
-  const Totals known = totals();
-  // data_to_surface is found itself; a sharp surface_to_data as large as the known one is at most 10 % above the truth, so that one is.
-  const typename LeafNode<Dim>::Sharp enough{known.data_to_surface / 1.1F, known.surface_to_data * (1.0F - 1e-6F)};
-  typename LeafNode<Dim>::Sharp found{0.0F, 0.0F};
-  sharp_until(root_, {}, enough, found);
-  if (found.data_to_surface >= enough.data_to_surface) found.data_to_surface = known.data_to_surface;
-  if (found.surface_to_data >= enough.surface_to_data) found.surface_to_data = known.surface_to_data;
-  return found;
-}
-
-/// The largest sharp bounds below a node, or some that are enough.
-template <int Dim>
-void Tree<Dim>::sharp_until(Node<Dim>& node, const Cell<Dim>& cell, const typename LeafNode<Dim>::Sharp& enough,
-                            typename LeafNode<Dim>::Sharp& most) const {
-  const auto raise = [&most](float data, float surface) {
-    most.data_to_surface = std::max(most.data_to_surface, data);
-    most.surface_to_data = std::max(most.surface_to_data, surface);
-  };
-  if (most.data_to_surface >= enough.data_to_surface && most.surface_to_data >= enough.surface_to_data) return;
-  if (node.inner)
-    for (int c = 0; c < Cell<Dim>::kChildren; ++c) sharp_until(node.inner->children[c], cell.child(c), enough, most);
-  if (!node.leaf) return;
-  sharpen(*node.leaf, cell);
-  for (const auto& bounds : node.leaf->sharp) raise(bounds.data_to_surface, bounds.surface_to_data);
-  if (node.leaf->fit.loose.empty()) return;
-  const Patch<Dim> loose = loose_patch<Dim>(node.leaf->sites[node.leaf->fit.loose[0]], rules_);
-  raise(loose.data_to_surface, loose.surface_to_data);
-}
-
-template <int Dim>
 std::unique_ptr<Proof<Dim>> Tree<Dim>::prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const {
   const double cover = rules_.spacing != nullptr ? std::max(eta_, rules_.spacing->most()) : eta_;
   if (sites.size() < kProofPoints || cell.depth() >= max_depth_ || static_cast<std::int64_t>(sites.size()) < rules_.min_points) return nullptr;

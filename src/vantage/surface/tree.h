@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -33,14 +34,16 @@ class Tree {
   Change<Dim> insert(std::span<const Site<Dim>> sites);
   Change<Dim> remove(std::span<const Site<Dim>> sites);
 
-  /// Works out sharp bounds of surface_to_data for all leaves; those of updates only are within the limit. Cost follows what was updated since.
+  /// Works out sharp bounds for all leaves; those of updates only are within the limit. Cost follows what was updated since.
   void sharpen() { sharpen(root_, {}); }
-  /// Bounds of the whole, at most 10 % above those that the leaves have. If some patch has nearly reached the limit, it is what updates know; looking
-  /// for one is mostly cheap.
-  [[nodiscard]] typename LeafNode<Dim>::Sharp sharp_bounds();
+  /// Those of one leaf.
+  void sharpen(LeafNode<Dim>& leaf, const Cell<Dim>& cell) const;
 
   [[nodiscard]] Totals totals() const { return totals(root_, Cell<Dim>{}); }
   [[nodiscard]] const Node<Dim>& root() const { return root_; }
+  [[nodiscard]] Node<Dim>& root() { return root_; }
+  /// Sites whose leaves told the errors of the whole when they were asked for the last time: the first to be asked the next time.
+  [[nodiscard]] std::array<Site<Dim>, 2>& telling() { return telling_; }
   [[nodiscard]] const FitRules<Dim>& rules() const { return rules_; }
 
  private:
@@ -50,6 +53,7 @@ class Tree {
   double eta_;
   int max_depth_;
   Node<Dim> root_;
+  std::array<Site<Dim>, 2> telling_{};
 
   Change<Dim> update(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
   Change<Dim> update_leaf(Node<Dim>& node, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Action action);
@@ -61,8 +65,6 @@ class Tree {
   std::optional<CellFit<Dim>> fit(GatheredSites<Dim>& sites, const Moments<Dim>* moments, const Cell<Dim>& cell, const FitRules<Dim>& rules,
                                   Refusal<Dim>* refusal = nullptr) const;
   void sharpen(Node<Dim>& node, const Cell<Dim>& cell);
-  void sharpen(LeafNode<Dim>& leaf, const Cell<Dim>& cell) const;
-  void sharp_until(Node<Dim>& node, const Cell<Dim>& cell, const typename LeafNode<Dim>::Sharp& enough, typename LeafNode<Dim>::Sharp& most) const;
   bool update_standing(LeafNode<Dim>& leaf, const Cell<Dim>& cell, std::span<const Site<Dim>> sites, Change<Dim>& change) const;
   std::unique_ptr<Proof<Dim>> prove(const SiteView<Dim>& sites, const Cell<Dim>& cell) const;
   Box<Dim> bounds(const Node<Dim>& node) const;
