@@ -135,11 +135,11 @@ typename DepthImage<Dim>::Rectangle DepthImage<Dim>::rectangle(int face, const B
   out.low.setZero();
   out.high.setZero();
   if (far <= 0.0) return out;
-  const double a = std::max(near, 1e-12);
   for (int k = 1; k < Dim; ++k) {
     const double low = box.low[(axis + k) % Dim], high = box.high[(axis + k) % Dim];
-    const double from = std::clamp(low >= 0.0 ? low / far : low / a, -1.0, 1.0), to = std::clamp(high >= 0.0 ? high / a : high / far, -1.0, 1.0);
-    if ((low > 0.0 && low / far > 1.0) || (high < 0.0 && high / far < -1.0)) return out;
+    if (low > far || high < -far) return out;
+    const double from = low >= 0.0 ? low / far : near > 0.0 ? std::max(low / near, -1.0) : -1.0;
+    const double to = high <= 0.0 ? high / far : near > 0.0 ? std::min(high / near, 1.0) : 1.0;
     out.low[k - 1] = std::clamp(static_cast<int>(std::floor((from + 1.0) * 0.5 * resolution_)), 0, resolution_ - 1);
     out.high[k - 1] = std::clamp(static_cast<int>(std::floor((to + 1.0) * 0.5 * resolution_)), 0, resolution_ - 1) + 1;
   }
