@@ -23,6 +23,7 @@ class DepthImage {
   /// Unit direction of a pixel's centre.
   [[nodiscard]] Vec<Dim> direction(std::size_t pixel) const;
   [[nodiscard]] std::size_t size() const { return ranges_.size(); }
+  [[nodiscard]] std::span<const float> ranges() const { return ranges_; }
   [[nodiscard]] float& operator[](std::size_t pixel) { return ranges_[pixel]; }
   [[nodiscard]] float operator[](std::size_t pixel) const { return ranges_[pixel]; }
   /// Pixels [low, high) along each of the face's Dim - 1 axes.

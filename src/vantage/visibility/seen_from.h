@@ -16,8 +16,11 @@ struct Viewpoint {
 /// The definition, and the reference for seen_from().
 template <int Dim>
 [[nodiscard]] bool sees(const DepthImage<Dim>& image, double max_range, const Vec<Dim>& offset) {
-  const double range = offset.norm();
-  return range <= max_range && (range == 0.0 || range <= static_cast<double>(image[image.pixel(offset)]));
+  double square = offset[Dim - 1] * offset[Dim - 1];
+  for (int a = Dim - 2; a >= 0; --a) square = offset[a] * offset[a] + square;
+  if (square > max_range * max_range || square == 0.0) return square == 0.0;
+  const auto depth = static_cast<double>(image[image.pixel(offset)]);
+  return square <= depth * depth;
 }
 
 /// The nodes of `window` that are seen: exactly those that sees() says, found by whole blocks. A least-and-greatest pyramid of the image decides
