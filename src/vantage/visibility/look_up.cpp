@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/visibility/look_up.h"
 
-#include <array>
-
-#if defined(__x86_64__)
-#define VANTAGE_WIDE 1
-#endif
-// Inlined into a function of each instruction set; the compiler makes vectors of the loops over lanes.
-#define VANTAGE_LANES [[gnu::always_inline]] inline
+#include "vantage/visibility/lanes.h"
 
 namespace vantage {
 namespace {
 
-constexpr int kLanes = 8;
 static_assert(kLanes == SeenSet<3>::kSide);
-using Reals = std::array<double, kLanes>;
-using Pixels = std::array<std::int32_t, kLanes>;
+using Reals = Lanes<double>;
+using Pixels = Lanes<std::int32_t>;
 
 /// DepthImage::pixel() along one axis of a face; `w` is at least -1.
 VANTAGE_LANES std::int32_t to_pixel(double w, double resolution) {
@@ -45,13 +38,13 @@ VANTAGE_LANES void pixels_aside(const LookUp<Dim>& look, const Reals& x, const d
 }
 
 /// The nodes of a block along axis 0.
-struct Lanes {
+struct Row {
   Reals x, size;       ///< Offset and its magnitude, above zero [m].
   double least, most;  ///< Of `size`.
 };
 
 template <int Dim>
-VANTAGE_LANES std::uint8_t row(const LookUp<Dim>& look, const Lanes& lanes, const double (&d)[Dim]) {
+VANTAGE_LANES std::uint8_t row(const LookUp<Dim>& look, const Row& lanes, const double (&d)[Dim]) {
   int axis = 1;
   double most = d[1] < 0.0 ? -d[1] : d[1], square = d[Dim - 1] * d[Dim - 1];
   for (int a = Dim - 2; a >= 1; --a) square = d[a] * d[a] + square;
@@ -71,7 +64,7 @@ VANTAGE_LANES std::uint8_t row(const LookUp<Dim>& look, const Lanes& lanes, cons
     pixels_ahead<Dim>(look, lanes.x, lanes.size, d, pixel);
     for (int k = 0; k < kLanes; ++k) pixel[k] = lanes.size[k] < most ? aside[k] : pixel[k];
   }
-  std::array<float, kLanes> depth;
+  Lanes<float> depth;
   for (int k = 0; k < kLanes; ++k) depth[k] = look.ranges[pixel[k]];
   unsigned seen = 0;
   for (int k = 0; k < kLanes; ++k) {
@@ -83,7 +76,7 @@ VANTAGE_LANES std::uint8_t row(const LookUp<Dim>& look, const Lanes& lanes, cons
 
 template <int Dim>
 VANTAGE_LANES void block(const LookUp<Dim>& look, const std::int32_t* first, std::uint8_t* bits) {
-  Lanes lanes;
+  Row lanes;
   for (int k = 0; k < kLanes; ++k) {
     lanes.x[k] = static_cast<double>(first[0] + k) * look.spacing - look.origin.data()[0];
     const double size = lanes.x[k] < 0.0 ? -lanes.x[k] : lanes.x[k];
@@ -109,7 +102,7 @@ void block_anywhere(const LookUp<Dim>& look, const std::int32_t* first, std::uin
 
 #if VANTAGE_WIDE
 template <int Dim>
-[[gnu::target("avx2")]] void block_avx2(const LookUp<Dim>& look, const std::int32_t* first, std::uint8_t* bits) {
+VANTAGE_AVX2 void block_avx2(const LookUp<Dim>& look, const std::int32_t* first, std::uint8_t* bits) {
   block<Dim>(look, first, bits);
 }
 #endif
@@ -117,7 +110,7 @@ template <int Dim>
 template <int Dim>
 auto best_block() {
 #if VANTAGE_WIDE
-  if (__builtin_cpu_supports("avx2")) return &block_avx2<Dim>;
+  if (has_avx2()) return &block_avx2<Dim>;
 #endif
   return &block_anywhere<Dim>;
 }
