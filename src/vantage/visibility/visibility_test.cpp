@@ -146,6 +146,62 @@ TYPED_TEST(Visibility, DepthImageEqualsAskingEveryPatch) {
   }
 }
 
+/// Any rotation of the sensor frame, by turns in the planes of two axes.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> turned(double angle) {
+  Eigen::Matrix<double, Dim, Dim> r = Eigen::Matrix<double, Dim, Dim>::Identity();
+  for (int a = 0; a < Dim; ++a)
+    for (int b = a + 1; b < Dim; ++b) {
+      const auto [s, c] = sin_cos(angle * (1 + a + b));
+      Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+      turn(a, a) = turn(b, b) = c;
+      turn(a, b) = -s;
+      turn(b, a) = s;
+      r = turn * r;
+    }
+  return r;
+}
+
+/// Oracle: the column and row of a direction by angles, then the least of the 2 x 2 rays around.
+template <int Dim>
+float least_of_neighbours(const Scan<Dim>& scan, const Vec<Dim>& direction) {
+  const Vec<Dim> d = scan.world_from_sensor.transpose() * direction;
+  const int columns = scan.pattern.columns(), rows = scan.pattern.template rows<Dim>();
+  const bool wraps = scan.pattern.full_circle();
+  const double azimuth = angle_of(d[1], d[0]), elevation = angle_of((Dim - 2) * d[Dim - 1], d.template head<2>().norm());
+  const double column = wraps ? (azimuth + kPi) / (2.0 * kPi) * columns : azimuth / scan.pattern.step + 0.5 * (columns - 1);
+  const double row = elevation / scan.pattern.step + 0.5 * (rows - 1), half = 0.5 + 1e-9;
+  if ((!wraps && std::abs(column - 0.5 * (columns - 1)) > 0.5 * (columns - 1) + half) || row < -half || row > rows - 1 + half) return 0.0F;
+  float least = std::numeric_limits<float>::infinity();
+  for (const int c : {0, 1})
+    for (const int r : {0, 1}) {
+      const int at = static_cast<int>(std::floor(column)) + c;
+      const float range = scan.range(wraps ? at % columns : std::clamp(at, 0, columns - 1), std::clamp(static_cast<int>(std::floor(row)) + r, 0, rows - 1));
+      least = std::min(least, std::isnan(range) ? 0.0F : std::min(range, static_cast<float>(scan.pattern.max_range)));
+    }
+  return least;
+}
+
+TYPED_TEST(Visibility, RangesAreTheLeastOfTheRaysAround) {
+  constexpr int Dim = TypeParam::value;
+  for (const double fov : {360.0, 90.0, 200.0})
+    for (const double step : {0.4, 3.0, 30.0})
+      for (const double turn : {0.0, 0.5 * kPi, 0.7}) {
+        Scan<Dim> scan;
+        scan.pattern.step = radians(step);
+        scan.pattern.horizontal_fov = radians(fov);
+        scan.pattern.vertical_fov = radians(fov < 180.0 ? 60.0 : 179.5);
+        scan.world_from_sensor = turned<Dim>(turn);
+        const std::size_t rays = directions<Dim>(scan.pattern).size();
+        for (std::size_t i = 0; i < rays; ++i)
+          scan.ranges.push_back(i % 17 == 3 ? kNoData : i % 11 == 5 ? kNoReturn : 2.0F + static_cast<float>(i * 7919 % 5003) * 0.01F);
+        DepthImage<Dim> image(97, 40.0F);
+        draw_ranges(image, scan);
+        for (std::size_t p = 0; p < image.size(); ++p)
+          ASSERT_EQ(image[p], std::min(40.0F, least_of_neighbours<Dim>(scan, image.direction(p)))) << fov << " " << step << " " << turn;
+      }
+}
+
 /// Sharing a wall out among patches with a gap: plain rays leak through, the 1 degree cone does not.
 TYPED_TEST(Visibility, ConesCloseCracks) {
   constexpr int Dim = TypeParam::value;
