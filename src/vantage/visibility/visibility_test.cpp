@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "vantage/base/parallel.h"
 #include "vantage/visibility/depth_image.h"
 
@@ -143,6 +145,41 @@ TYPED_TEST(Visibility, DepthImageEqualsAskingEveryPatch) {
       nearest = std::min(nearest, ray_range<Dim>(patch, origin, u, margin).value_or(kInfinity));
     }
     ASSERT_NEAR(image[p], nearest, 1e-4);
+  }
+}
+
+/// Rectangles hide at least what every place within the margin hides, and at most what lies within their mitred corners.
+TEST(VisibilityPolygons, LieBetweenRoundAndMitredCorners) {
+  std::vector<Patch<3>> patches;
+  for (int i = 0; i < 60; ++i) {
+    const auto turn = [&](int k) { return std::fmod(0.618 * (5 * i + k), 1.0); };
+    const Vec<3> corner(20.0 * turn(0) - 10.0, 20.0 * turn(1) - 10.0, 8.0 * turn(2) - 4.0);
+    const Vec<3> a = (1.0 + 3.0 * turn(3)) * Vec<3>(turn(4) - 0.5, turn(1) - 0.4, turn(2) - 0.3).normalized();
+    const Vec<3> b = 1.5 * a.cross(Vec<3>(turn(2), turn(3) - 0.5, 0.7)).normalized();
+    Patch<3> patch;
+    patch.count = 4;
+    patch.vertices[0] = corner;
+    patch.vertices[1] = corner + a;
+    patch.vertices[2] = corner + a + b;
+    patch.vertices[3] = corner + b;
+    patches.push_back(patch);
+  }
+  const Vec<3> origin(0.2, 0.1, -0.3);
+  for (const double margin : {0.0, 0.1, 0.5}) {
+    DepthImage<3> image(48, 30.0F);
+    draw_patches<3>(image, patches, origin, margin, 0.0);
+    std::size_t met = 0;
+    for (std::size_t p = 0; p < image.size(); ++p) {
+      double round = 30.0, mitred = 30.0;
+      for (const Patch<3>& patch : patches) {
+        round = std::min(round, ray_range<3>(patch, origin, image.direction(p), margin).value_or(kInfinity));
+        mitred = std::min(mitred, ray_range<3>(patch, origin, image.direction(p), 1.4143 * margin + 1e-9).value_or(kInfinity));
+      }
+      ASSERT_LE(image[p], round + 1e-4);
+      ASSERT_GE(image[p], mitred - 1e-4);
+      met += image[p] < 30.0F ? 1 : 0;
+    }
+    EXPECT_GT(met, image.size() / 20);
   }
 }
 
