@@ -9,11 +9,17 @@
 
 namespace vantage {
 
-/// Directions `base + w along`, not of unit length, w = first, first + step, ...
+/// A row of pixels, or the rest of one: directions `base + w along`, not of unit length.
 template <int Dim>
 struct PixelRun {
   Vec<Dim> base, along;
-  double first = 0.0, step = 0.0;
+  double column = 0.5;      ///< Of the first pixel's centre, in pixels.
+  double resolution = 1.0;  ///< Of the image.
+
+  /// w of the k-th pixel.
+  [[nodiscard]] double offset(int k) const { return (column + k) * 2.0 / resolution - 1.0; }
+  /// Unit direction of the k-th pixel's centre, the same bits as DepthImage::direction().
+  [[nodiscard]] Vec<Dim> direction(int k) const { return (base + offset(k) * along).normalized(); }
 };
 
 /// Range of the first occluder per direction: a cube map (in 2D the four sides of a square), so that a look-up needs no trigonometry.

@@ -48,26 +48,28 @@ class PatchDrawer {
 
   void draw(const Patch<Dim>& patch, int face, const typename DepthImage<Dim>::Rectangle& area) const {
     const Occluder<Dim> occluder(patch, origin_);
-    const Sieve<Dim> sieve(occluder, widening(occluder.center.norm() + occluder.radius));
+    Sieve<Dim> sieve(occluder, widening(occluder.center.norm() + occluder.radius));
     const int top = (Dim - 2) * area.low[0], bottom = (Dim - 2) * (area.high[0] - 1);  // In the plane a face is one row.
-    const auto columns = static_cast<std::size_t>(image_.resolution()), length = static_cast<std::size_t>(area.high[Dim - 2] - area.low[Dim - 2]);
+    const int left = area.low[Dim - 2], length = area.high[Dim - 2] - left;
     for (int row = top; row <= bottom; ++row) {
-      const std::size_t first = image_.pixels_per_face() * static_cast<std::size_t>(face) + static_cast<std::size_t>(row) * columns +
-                                static_cast<std::size_t>(area.low[Dim - 2]);
-      for (std::size_t at = 0; at < length; at += kLanes) {
-        const int count = static_cast<int>(std::min<std::size_t>(kLanes, length - at));
-        unsigned mask = sieve.pixels(image_.run(first + at), image_.ranges().data() + first + at, count);
-        for (; mask != 0; mask &= mask - 1) lower(first + at + static_cast<std::size_t>(std::countr_zero(mask)), occluder);
-      }
+      const std::size_t first =
+          image_.pixels_per_face() * static_cast<std::size_t>(face) + static_cast<std::size_t>(row * image_.resolution() + left);
+      const PixelRun<Dim> run = image_.run(first);
+      sieve.start(run);
+      float* const ranges = &image_[first];
+      for (int at = 0; at < length; at += kLanes)
+        for (unsigned mask = sieve.pixels(at, ranges + at, std::min(kLanes, length - at)); mask != 0; mask &= mask - 1) {
+          const int k = at + std::countr_zero(mask);
+          lower(ranges[k], run.direction(k), occluder);
+        }
     }
   }
 
  private:
   [[nodiscard]] double widening(double range) const { return margin_ + range * slope_; }
-  void lower(std::size_t pixel, const Occluder<Dim>& occluder) const {
-    const Vec<Dim> direction = image_.direction(pixel);
+  void lower(float& least, const Vec<Dim>& direction, const Occluder<Dim>& occluder) const {
     const double range = occluder.range(direction, widening(std::max(0.0, occluder.center.dot(direction))));
-    if (range < static_cast<double>(image_[pixel])) image_[pixel] = static_cast<float>(range);
+    if (range < static_cast<double>(least)) least = static_cast<float>(range);
   }
   [[nodiscard]] static double farthest(const Box<Dim>& box) { return box.center().norm() + 0.5 * box.size().norm(); }
 

@@ -98,14 +98,21 @@ class FreeRanges {
     return at(static_cast<int>(std::floor(column)), static_cast<int>(std::floor(row)));
   }
 
-  /// Lowers `count` pixels (at most kLanes) as along() says, which is asked only where a guess is not sure.
-  void lower(DepthImage<Dim>& image, std::size_t first, int count) const {
-    Places places;
-    best_guess(guess_for(image.run(first)), places);
-    for (int k = 0; k < count; ++k) {
-      const auto lane = static_cast<std::size_t>(k), pixel = first + lane;
-      const float range = places.unsure[lane] != 0 ? along(image.direction(pixel)) : at_half(places.column[lane] - 2, places.row[lane] - 2);
-      image[pixel] = std::min(image[pixel], range);
+  /// Lowers the pixels of a row as along() says, which is asked only where a guess is not sure.
+  void lower(DepthImage<Dim>& image, std::size_t first) const {
+    const PixelRun<Dim> run = image.run(first);
+    Guess guess = guess_for(run);
+    for (int at = 0; at < image.resolution(); at += kLanes) {
+      guess.first = static_cast<float>(run.offset(at));
+      Places places;
+      best_guess(guess, places);
+      const int count = std::min(kLanes, image.resolution() - at);
+      for (int k = 0; k < count; ++k) {
+        const auto lane = static_cast<std::size_t>(k);
+        const float range = places.unsure[lane] != 0 ? along(run.direction(at + k)) : at_half(places.column[lane] - 2, places.row[lane] - 2);
+        float& least = image[first + static_cast<std::size_t>(at + k)];
+        least = std::min(least, range);
+      }
     }
   }
 
@@ -139,8 +146,7 @@ class FreeRanges {
       g.base[a] = static_cast<float>(base[a]);
       g.along[a] = static_cast<float>(along[a]);
     }
-    g.first = static_cast<float>(run.first);
-    g.step = static_cast<float>(run.step);
+    g.step = static_cast<float>(2.0 / run.resolution);
     g.columns = static_cast<float>(columns);
     g.rows = static_cast<float>(rows);
     // One more than it is: above zero wherever it matters, so that truncation rounds down.
@@ -164,9 +170,7 @@ template <int Dim>
 void draw_ranges(DepthImage<Dim>& image, const Scan<Dim>& scan) {
   const FreeRanges<Dim> free(scan);
   const auto row = static_cast<std::size_t>(image.resolution());
-  parallel_for(image.size() / row, 4, [&](std::size_t r) {
-    for (std::size_t at = 0; at < row; at += kLanes) free.lower(image, r * row + at, static_cast<int>(std::min<std::size_t>(kLanes, row - at)));
-  });
+  parallel_for(image.size() / row, 4, [&](std::size_t r) { free.lower(image, r * row); });
 }
 
 template void draw_ranges<2>(DepthImage<2>&, const Scan<2>&);
