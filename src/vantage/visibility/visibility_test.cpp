@@ -7,6 +7,7 @@
 
 #include "vantage/base/parallel.h"
 #include "vantage/visibility/depth_image.h"
+#include "vantage/visibility/seen_from.h"
 
 namespace vantage {
 namespace {
@@ -237,6 +238,66 @@ TYPED_TEST(Visibility, RangesAreTheLeastOfTheRaysAround) {
         for (std::size_t p = 0; p < image.size(); ++p)
           ASSERT_EQ(image[p], std::min(40.0F, least_of_neighbours<Dim>(scan, image.direction(p)))) << fov << " " << step << " " << turn;
       }
+}
+
+/// A node's answer is that of its pixel's centre, half a pixel's diagonal away at most: where exact rays differ, they differ within that angle.
+TYPED_TEST(Visibility, DiffersFromExactRaysWithinHalfAPixel) {
+  constexpr int Dim = TypeParam::value;
+  std::vector<Patch<Dim>> patches = points_of(scan_of_ball<Dim>(6.0));
+  for (std::size_t i = 0; i + 1 < patches.size(); i += 2) patches[i] = segment_patch<Dim>(patches[i].vertices[0], patches[i + 1].vertices[0]);
+  const Vec<Dim> origin = Vec<Dim>::Constant(0.13);
+  const double eta = 0.1, far = 9.0;
+  const auto first = [&](const Vec<Dim>& u) {
+    double range = far;
+    for (const Patch<Dim>& patch : patches) range = std::min(range, ray_range<Dim>(patch, origin, u, eta).value_or(kInfinity));
+    return range;
+  };
+  for (const int resolution : {64, 65, 256}) {
+    DepthImage<Dim> image(resolution, static_cast<float>(far));
+    draw_patches<Dim>(image, patches, origin, eta, 0.0);
+    const Grid<Dim> window = window_around_origin<Dim>(6.0, Dim == 2 ? 0.1 : 0.41);
+    int differ = 0, hidden = 0;
+    for (std::size_t i = 0; i < window.size(); ++i) {
+      const Vec<Dim> offset = window.position(i) - origin;
+      const double range = offset.norm();
+      const Vec<Dim> u = offset / range, center = image.direction(image.pixel(offset));
+      ASSERT_LE((u - center).norm(), std::sqrt(Dim - 1.0) / resolution * (1.0 + 1e-9));
+      if (range > far) continue;
+      const bool seen = sees<Dim>(image, far, offset), exact = range <= first(u);
+      hidden += exact ? 0 : 1;
+      if (seen == exact) continue;
+      ++differ;
+      const double there = first(center);
+      ASSERT_TRUE(std::abs(there - range) < 1e-5 || seen == (range <= there)) << offset.transpose();
+    }
+    EXPECT_GT(hidden, 50);
+    EXPECT_LE(differ, hidden * 20 / resolution);  // They follow the rim, so their share falls with the size of a pixel.
+  }
+}
+
+/// Law of the cones: what a cone meets is the least over the plain rays in it.
+TYPED_TEST(Visibility, ConeIsTheLeastOverItsOpening) {
+  constexpr int Dim = TypeParam::value;
+  const std::vector<Patch<Dim>> patches = points_of(scan_of_ball<Dim>(8.0));
+  const int resolution = Dim == 2 ? 2000 : 120;
+  const double half = radians(5.0), pixel = std::sqrt(Dim - 1.0) / resolution, margin = 10.0 / resolution;  // No point falls between pixels.
+  DepthImage<Dim> plain(resolution, 50.0F), cone(resolution, 50.0F);
+  draw_patches<Dim>(plain, patches, Vec<Dim>::Zero(), margin, 0.0);
+  draw_patches<Dim>(cone, patches, Vec<Dim>::Zero(), margin, 2.0 * half);
+  std::size_t lowered = 0;
+  for (std::size_t p = 0; p < cone.size(); p += 23) {
+    float inner = 50.0F, outer = 50.0F;
+    for (std::size_t q = 0; q < plain.size(); ++q) {
+      if (plain[q] >= 50.0F) continue;
+      const double angle = (cone.direction(p) - cone.direction(q)).norm();
+      if (angle <= half - 2.0 * pixel) inner = std::min(inner, plain[q]);
+      if (angle <= half + 2.0 * pixel) outer = std::min(outer, plain[q]);
+    }
+    ASSERT_LE(cone[p], inner * 1.001F);
+    ASSERT_GE(cone[p], outer * 0.99F);
+    lowered += cone[p] < plain[p] ? 1 : 0;
+  }
+  EXPECT_GT(lowered, 10U);
 }
 
 /// Sharing a wall out among patches with a gap: plain rays leak through, the 1 degree cone does not.
