@@ -39,9 +39,9 @@ class SeenSet {
   }
   /// The eight nodes of a row of a block, lowest bit first; `row` as in Bits.
   [[nodiscard]] std::uint8_t row(std::size_t block, std::size_t row) const;
-  /// Calls f(linear index in the window, seen) for the nodes of a block.
+  /// Calls f(linear index in the window of the first node, nodes, their bits) for the rows of a block, as far as they lie in the window.
   template <class F>
-  void for_nodes(std::size_t block, F&& f) const;
+  void for_rows(std::size_t block, F&& f) const;
   [[nodiscard]] std::size_t count() const;  ///< Nodes seen.
   [[nodiscard]] std::size_t mixed() const { return bits_.size(); }
   [[nodiscard]] std::size_t bytes() const { return entries_.size() * sizeof(std::int32_t) + bits_.size() * sizeof(Bits); }
@@ -61,16 +61,15 @@ class SeenSet {
 template <int Dim>
   requires SpatialDim<Dim>
 template <class F>
-void SeenSet<Dim>::for_nodes(std::size_t block, F&& f) const {
-  const Index<Dim> first = (blocks_.first + blocks_.local(block)) * kSide;
+void SeenSet<Dim>::for_rows(std::size_t block, F&& f) const {
   const Grid<Dim> part = nodes(block);
-  Grid<Dim> rows = part;
-  rows.extent[0] = 1;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Index<Dim> node = part.first + rows.local(r), within = node - first;
-    const std::size_t begin = window_.linear(Index<Dim>(node - window_.first));
-    const unsigned seen = static_cast<unsigned>(row(block, row_of(within))) >> within[0];
-    for (std::int32_t k = 0; k < part.extent[0]; ++k) f(begin + static_cast<std::size_t>(k), (seen >> k & 1U) != 0);
+  const Index<Dim> first = (blocks_.first + blocks_.local(block)) * kSide, last = part.first + part.extent;
+  const unsigned mask = (1U << part.extent[0]) - 1U;
+  Index<Dim> node = part.first;
+  for (int a = 0; a < Dim;) {
+    const Index<Dim> within = node - first;
+    f(window_.linear(Index<Dim>(node - window_.first)), part.extent[0], static_cast<unsigned>(row(block, row_of(within))) >> within[0] & mask);
+    for (a = 1; a < Dim && ++node[a] == last[a]; ++a) node[a] = part.first[a];
   }
 }
 

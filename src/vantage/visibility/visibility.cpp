@@ -62,9 +62,12 @@ Field<Dim> visibility(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan
   Field<Dim> phi = distance_to_patches(patches, window);
   const auto tolerance = static_cast<float>(eta);
   parallel_for(set.blocks().size(), 64, [&](std::size_t block) {
-    set.for_nodes(block, [&](std::size_t i, bool seen) {
-      const float depth = std::max(phi[i] - tolerance, std::numeric_limits<float>::min());
-      phi[i] = seen ? depth : -depth;
+    set.for_rows(block, [&](std::size_t begin, int count, unsigned seen) {
+      float* const row = &phi[begin];
+      for (int k = 0; k < count; ++k) {
+        const float depth = std::max(row[k] - tolerance, std::numeric_limits<float>::min());
+        row[k] = (seen >> k & 1U) != 0 ? depth : -depth;
+      }
     });
   });
   return phi;
