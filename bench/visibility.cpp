@@ -4,21 +4,10 @@
 // One viewpoint in `town`, a cube of 128 m cut into 128^3, 256^3 and 512^3 nodes. Drawing the depth image and classifying the nodes are timed apart;
 // the peers ask one ray a node on the scene's triangles (Embree) or on the voxels of the same points (OctoMap, a sample, scaled up).
 #include <fmt/format.h>
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#define VANTAGE_EMBREE 4
-#else
-#include <embree3/rtcore.h>
-#define VANTAGE_EMBREE 3
-#endif
-#ifdef VANTAGE_OCTOMAP
-#include <octomap/OcTree.h>
-#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -27,15 +16,18 @@
 #include "vantage/base/random.h"
 #include "vantage/surface/surface.h"
 #include "vantage/visibility/depth_pyramid.h"
+#include "vantage/visibility/lanes.h"
 #include "vantage/visibility/occluder.h"
 #include "vantage/visibility/seen_from.h"
 #include "vantage/visibility/visibility.h"
 #include "vantage/world/lidar.h"
 #include "vantage/world/scene.h"
+#include "visibility_peers.h"
 
 namespace vantage {
 namespace {
 
+using bench::seconds;
 using Json = nlohmann::json;
 
 struct Settings {
@@ -45,42 +37,32 @@ struct Settings {
   int repeats = 9, threads = 1, peer_nodes = 256, sample = 4000;
 };
 
-/// Median CPU seconds of a few runs.
-template <class Work>
-double seconds(int repeats, Work&& work) {
-  std::vector<double> times;
-  const auto now = [] {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  };
-  for (int i = 0; i < repeats; ++i) {
-    const double begin = now();
-    work();
-    times.push_back(now() - begin);
-  }
-  std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
-  return times[static_cast<std::size_t>(repeats / 2)];
-}
-
 /// What the machine can do on the threads asked for.
 struct Machine {
-  double read = 0.0;     ///< [bytes/s], from memory.
-  double add = 0.0;      ///< Additions and multiplications in double [1/s].
-  double divide = 0.0;   ///< Divisions in double [1/s].
+  double read = 0.0;    ///< [bytes/s], from memory.
+  double add = 0.0;     ///< Additions and multiplications in double [1/s].
+  double divide = 0.0;  ///< Divisions in double [1/s].
 };
 
-[[gnu::target("avx2"), gnu::noinline]] void arithmetic(double* x, bool divide) {
-  constexpr int kLanesHere = 32, kTurns = 1 << 20;
-  double v[kLanesHere];
-  std::copy_n(x, kLanesHere, v);
+/// 2^20 turns of 32 independent chains, each an addition and a multiplication, or a division.
+VANTAGE_LANES void turn(double* x, bool divide) {
+  constexpr int kChains = 32, kTurns = 1 << 20;
+  double v[kChains];
+  std::copy_n(x, kChains, v);
   for (int t = 0; t < kTurns; ++t)
     if (divide)
       for (double& a : v) a = 1.5 / a;
     else
       for (double& a : v) a = a * 0.999 + 0.001;
-  std::copy_n(v, kLanesHere, x);
+  std::copy_n(v, kChains, x);
 }
+void arithmetic_anywhere(double* x, bool divide) { turn(x, divide); }
+#if VANTAGE_WIDE
+VANTAGE_AVX2 void arithmetic_wide(double* x, bool divide) { turn(x, divide); }
+const auto arithmetic = has_avx2() ? &arithmetic_wide : &arithmetic_anywhere;
+#else
+const auto arithmetic = &arithmetic_anywhere;
+#endif
 
 Machine measure_machine() {
   Machine m;
@@ -108,7 +90,9 @@ struct World {
 };
 
 World make_world(const Settings& settings) {
-  World world{std::get<Scene<3>>(make_scene(settings.scene)), {}, {}, {}, 0.1};
+  const AnyScene any = make_scene(settings.scene);
+  require(std::holds_alternative<Scene<3>>(any), settings.scene + ": must be a scene in 3D");
+  World world{std::get<Scene<3>>(any), {}, {}, {}, 0.1};
   world.eta = world.scene.eta;
   LidarOptions options;
   options.pattern.max_range = world.scene.range;
@@ -159,7 +143,26 @@ Json exact_rays(const World& world, const Grid<3>& window, int sample) {
     const bool within = (offset / range - center).norm() <= tolerance && seen == (range <= static_cast<double>(static_cast<float>(first(center))));
     beyond += within ? 0 : 1;
   }
-  return {{"nodes_asked", asked}, {"differ_share", static_cast<double>(differ) / asked}, {"beyond_tolerance", beyond}, {"tolerance_deg", degrees(tolerance)}};
+  return {{"nodes_asked", asked},
+          {"differ_share", static_cast<double>(differ) / asked},
+          {"beyond_tolerance", beyond},
+          {"tolerance_deg", degrees(tolerance)}};
+}
+
+/// Pixels in the rectangles around the patches: those that are tested.
+std::size_t pixels_near(const World& world, const DepthImage<3>& image) {
+  std::size_t sum = 0;
+  for (const Patch<3>& patch : world.patches)
+    for (int face = 0; face < 6; ++face) {
+      const Box<3> box = patch.bounds();
+      const auto area = image.rectangle(face, Box<3>{box.low - world.scan.origin, box.high - world.scan.origin}.grown(world.eta));
+      if (!area.empty()) sum += static_cast<std::size_t>((area.high - area.low).prod());
+    }
+  return sum;
+}
+
+Json kernel(const std::string& name, double time, std::size_t bytes, std::size_t operations, std::size_t divisions) {
+  return {{"name", name}, {"seconds", time}, {"bytes", bytes}, {"operations", operations}, {"divisions", divisions}};
 }
 
 Json classify(const World& world, const Settings& settings, int n) {
@@ -183,11 +186,9 @@ Json classify(const World& world, const Settings& settings, int n) {
   });
   std::size_t differ = 0;
   for (std::size_t i = 0; i < window.size(); ++i) differ += set.at(window.local(i)) != (every[i] != 0) ? 1 : 0;
-  const auto image_bytes = image.size() * sizeof(float);
+  const std::size_t image_bytes = image.size() * sizeof(float), opened = set.mixed() * SeenSet<3>::kNodes;
   return {{"nodes", n},
           {"resolution", image.resolution()},
-          {"ranges_s", ranges - fill},
-          {"patches_s", image_time - ranges},
           {"image_s", image_time},
           {"classify_s", blocks},
           {"pyramid_s", pyramid},
@@ -199,143 +200,38 @@ Json classify(const World& world, const Settings& settings, int n) {
           {"image_bytes", image_bytes},
           {"pyramid_bytes", pyramid_bytes},
           {"set_bytes", set.bytes()},
-          // Least traffic: the image read, the pyramid written and read, the set written. Least work: per opened node two divisions and 16 others.
-          {"floor_bytes", image_bytes + 2 * pyramid_bytes + set.bytes()},
-          {"floor_divisions", 2 * set.mixed() * SeenSet<3>::kNodes},
-          {"floor_operations", 16 * set.mixed() * SeenSet<3>::kNodes}};
-}
-
-// ---- Peers -------------------------------------------------------------------------------------------------------------------------------------
-
-/// The scene's triangles in Embree.
-class EmbreeWorld {
- public:
-  explicit EmbreeWorld(const Mesh<3>& mesh) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.vertices.size()));
-    for (const Vec<3>& p : mesh.vertices)
-      for (int a = 0; a < 3; ++a) *v++ = static_cast<float>(p[a]);
-    auto* f = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.facets.size()));
-    for (const auto& facet : mesh.facets) f = std::copy(facet.begin(), facet.end(), f);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
-  }
-  ~EmbreeWorld() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
-  EmbreeWorld(const EmbreeWorld&) = delete;
-  EmbreeWorld& operator=(const EmbreeWorld&) = delete;
-
-  /// Nodes of the window that a ray from `origin` reaches; one ray at a time, or sixteen along axis 0.
-  std::size_t visible(const Vec<3>& origin, const Grid<3>& window, bool packets) const {
-    std::size_t seen = 0;
-    const Vec<3> start = window.position(Index<3>::Zero()) - origin;
-    const auto h = static_cast<float>(window.spacing);
-    for (std::size_t i = 0; i < window.size(); i += 16) {
-      const Index<3> at = window.local(i);
-      const Vec<3> d = start + at.cast<double>() * window.spacing;
-      RTCRay16 rays{};
-      alignas(64) int valid[16];
-      for (int k = 0; k < 16; ++k) {
-        valid[k] = -1;
-        rays.org_x[k] = static_cast<float>(origin[0]), rays.org_y[k] = static_cast<float>(origin[1]), rays.org_z[k] = static_cast<float>(origin[2]);
-        rays.dir_x[k] = static_cast<float>(d[0]) + static_cast<float>(k) * h;
-        rays.dir_y[k] = static_cast<float>(d[1]), rays.dir_z[k] = static_cast<float>(d[2]);
-        rays.tfar[k] = 1.0F;
-        rays.mask[k] = ~0U;
-      }
-      packets ? occluded16(valid, rays) : occluded1(rays);
-      for (const float t : rays.tfar) seen += t >= 0.0F ? 1 : 0;
-    }
-    return seen;
-  }
-
- private:
-#if VANTAGE_EMBREE == 4
-  void occluded16(const int* valid, RTCRay16& rays) const {
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    rtcOccluded16(valid, scene_, &rays, &arguments);
-  }
-  void occluded(RTCRay& ray) const { rtcOccluded1(scene_, &ray); }
-#else
-  void occluded16(const int* valid, RTCRay16& rays) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcOccluded16(valid, scene_, &context, &rays);
-  }
-  void occluded(RTCRay& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_, &context, &ray);
-  }
-#endif
-  void occluded1(RTCRay16& rays) const {
-    for (int k = 0; k < 16; ++k) {
-      RTCRay ray{};
-      ray.org_x = rays.org_x[k], ray.org_y = rays.org_y[k], ray.org_z = rays.org_z[k];
-      ray.dir_x = rays.dir_x[k], ray.dir_y = rays.dir_y[k], ray.dir_z = rays.dir_z[k];
-      ray.tfar = 1.0F;
-      ray.mask = ~0U;
-      occluded(ray);
-      rays.tfar[k] = ray.tfar;
-    }
-  }
-
-  RTCDevice device_;
-  RTCScene scene_;
-};
-
-Json peer(const std::string& name, double time, double asked, double nodes) {
-  return {{"name", name}, {"seconds", time * nodes / asked}, {"share_asked", asked / nodes}};
-}
-
-Json peers(const World& world, const Settings& settings) {
-  const Grid<3> window = cube(world, settings, settings.peer_nodes / 16 * 16);
-  const auto nodes = static_cast<double>(window.size());
-  const Vec<3>& origin = world.scan.origin;
-  Json out = Json::array();
-  const EmbreeWorld embree(world.scene.mesh);
-  out.push_back(peer("Embree, packets of 16", seconds(3, [&] { (void)embree.visible(origin, window, true); }), nodes, nodes));
-  out.push_back(peer("Embree, one ray a node", seconds(1, [&] { (void)embree.visible(origin, window, false); }), nodes, nodes));
-#ifdef VANTAGE_OCTOMAP
-  octomap::OcTree tree(window.spacing);
-  const auto narrow = [](const Vec<3>& p) { return octomap::point3d(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])); };
-  for (const Vec<3>& p : world.points) tree.setNodeValue(narrow(p), tree.getProbHitLog(), true);
-  tree.updateInnerOccupancy();
-  Random random(2);
-  std::vector<Vec<3>> sample;
-  for (int i = 0; i < 20000; ++i) sample.push_back(window.position(static_cast<std::size_t>(random.below(window.size()))));
-  const double time = seconds(1, [&] {
-    octomap::point3d end;
-    for (const Vec<3>& p : sample)
-      if (const double range = (p - origin).norm(); range > 0.0) (void)tree.castRay(narrow(origin), narrow(p - origin), end, true, range);
-  });
-  out.push_back(peer("OctoMap castRay", time, static_cast<double>(sample.size()), nodes));
-#endif
-  return out;
+          {"kernels",
+           // Least traffic and work: the image written and read back; 30 operations and 1.5 divisions a pixel for its ray (in float, so half of them
+           // count); 20 operations for each pixel near a patch. Then the image read, the pyramid written and read, the set written; two divisions
+           // and 16 operations for each node of an opened block.
+           {kernel("ranges", ranges - fill, 2 * image_bytes + 4 * world.scan.ranges.size(), 30 * image.size(), 3 * image.size() / 2),
+            kernel("patches", image_time - ranges, 2 * image_bytes + world.patches.size() * sizeof(Patch<3>), 20 * pixels_near(world, image), 0),
+            kernel("classify", blocks, image_bytes + 2 * pyramid_bytes + set.bytes(), 16 * opened, 2 * opened)}}};
 }
 
 // ---- Tables ------------------------------------------------------------------------------------------------------------------------------------
 
-void print_rows(const Json& rows, const Machine& m) {
-  fmt::print("{:>6} {:>5} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "nodes", "res", "ranges", "patches", "classify", "(pyramid)",
-             "each node", "differ", "seen", "mixed", "set MB", "x memory", "x compute");
-  for (const Json& r : rows) {
-    const double memory = r["floor_bytes"].get<double>() / m.read;
-    const double compute = r["floor_divisions"].get<double>() / m.divide + r["floor_operations"].get<double>() / m.add;
-    const double time = r["classify_s"].get<double>();
-    fmt::print("{:>6} {:>5} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>8} {:>7.1f}% {:>7.1f}% {:>9.2f} {:>9.1f} {:>9.1f}\n",
-               fmt::format("{}^3", r["nodes"].get<int>()), r["resolution"].get<int>(), r["ranges_s"].get<double>(), r["patches_s"].get<double>(), time,
+void print_rows(const Json& rows) {
+  fmt::print("{:>6} {:>5} {:>8} {:>9} {:>9} {:>9} {:>6} {:>7} {:>7} {:>9} {:>7}\n", "nodes", "res", "image", "classify", "(pyramid)", "each node",
+             "differ", "seen", "opened", "image MB", "set MB");
+  for (const Json& r : rows)
+    fmt::print("{:>6} {:>5} {:>8.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>6} {:>6.1f}% {:>6.1f}% {:>9.2f} {:>7.2f}\n",
+               fmt::format("{}^3", r["nodes"].get<int>()), r["resolution"].get<int>(), r["image_s"].get<double>(), r["classify_s"].get<double>(),
                r["pyramid_s"].get<double>(), r["each_node_s"].get<double>(), r["differ_from_each"].get<std::size_t>(),
-               100.0 * r["seen_share"].get<double>(), 100.0 * r["mixed_share"].get<double>(), 1e-6 * r["set_bytes"].get<double>(), time / memory,
-               time / compute);
-  }
+               100.0 * r["seen_share"].get<double>(), 100.0 * r["mixed_share"].get<double>(),
+               1e-6 * (r["image_bytes"].get<double>() + r["pyramid_bytes"].get<double>()), 1e-6 * r["set_bytes"].get<double>());
+}
+
+/// How many times longer than moving the bytes, or than the arithmetic, takes at the machine's measured rates.
+void print_kernels(const Json& rows, const Machine& m) {
+  fmt::print("{:>6} {:<9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10}\n", "nodes", "kernel", "CPU s", "MB", "M ops", "M div", "x memory", "x compute");
+  for (const Json& r : rows)
+    for (const Json& k : r["kernels"]) {
+      const double time = k["seconds"], bytes = k["bytes"], operations = k["operations"], divisions = k["divisions"];
+      fmt::print("{:>6} {:<9} {:>8.4f} {:>8.1f} {:>8.1f} {:>8.1f} {:>9.1f} {:>10.1f}\n", fmt::format("{}^3", r["nodes"].get<int>()),
+                 k["name"].get<std::string>(), time, 1e-6 * bytes, 1e-6 * operations, 1e-6 * divisions, time / (bytes / m.read),
+                 time / (operations / m.add + divisions / m.divide));
+    }
 }
 
 int run(const Settings& settings) {
@@ -344,13 +240,13 @@ int run(const Settings& settings) {
   const Machine m = measure_machine();
   fmt::print("{}: {} patches from 4 scans, side {} m, range {} m; CPU seconds, medians of {}, {} thread(s)\n", settings.scene, world.patches.size(),
              settings.side, world.scan.pattern.max_range, settings.repeats, settings.threads);
-  fmt::print("this machine, one thread: reads {:.1f} GB/s, {:.1f} G additions and multiplications/s, {:.2f} G divisions/s (double)\n\n", 1e-9 * m.read,
-             1e-9 * m.add, 1e-9 * m.divide);
+  fmt::print("this machine, one thread: reads {:.1f} GB/s, {:.1f} G additions and multiplications/s, {:.2f} G divisions/s (double)\n\n",
+             1e-9 * m.read, 1e-9 * m.add, 1e-9 * m.divide);
   Json out{{"scene", settings.scene}, {"patches", world.patches.size()}, {"side_m", settings.side}, {"threads", settings.threads}};
   out["machine"] = {{"read_bytes_s", m.read}, {"add_s", m.add}, {"divide_s", m.divide}};
   out["rows"] = Json::array();
   for (const int n : settings.nodes) out["rows"].push_back(classify(world, settings, n));
-  print_rows(out["rows"], m);
+  print_rows(out["rows"]);
   const Json& first = out["rows"].front();
   const Json& last = out["rows"].back();
   if (first != last) {
@@ -358,19 +254,26 @@ int run(const Settings& settings) {
                       std::log(last["nodes"].get<double>() / first["nodes"].get<double>());
     fmt::print("\nclassify grows with the nodes along an edge to the power {:.2f}\n", out["exponent"].get<double>());
   }
+  fmt::print("\n");
+  print_kernels(out["rows"], m);
   out["exact"] = exact_rays(world, cube(world, settings, settings.peer_nodes), settings.sample);
-  fmt::print("exact rays against patches, {} nodes: {:.2f} % differ, {} of them by more than half a pixel ({:.2f} deg)\n\n",
+  fmt::print("\nexact rays against patches, {} nodes: {:.2f} % differ, {} of them by more than half a pixel ({:.2f} deg)\n\n",
              out["exact"]["nodes_asked"].get<int>(), 100.0 * out["exact"]["differ_share"].get<double>(), out["exact"]["beyond_tolerance"].get<int>(),
              out["exact"]["tolerance_deg"].get<double>());
-  out["peers"] = peers(world, settings);
+  out["peers"] = Json::array();
+  const Grid<3> window = cube(world, settings, settings.peer_nodes / 16 * 16);
+  for (const bench::PeerTime& peer : bench::visibility_peers(world.scene.mesh, world.points, world.scan.origin, window))
+    out["peers"].push_back({{"name", peer.name}, {"seconds", peer.seconds}, {"share_asked", peer.share_asked}});
   double ours = 0.0;
   for (const Json& r : out["rows"])
     if (r["nodes"] == settings.peer_nodes) ours = r["classify_s"].get<double>();
   fmt::print("{:<24} {:>9} {:>9}\n", fmt::format("{}^3 nodes", settings.peer_nodes), "CPU s", "ratio");
   if (ours > 0.0) fmt::print("{:<24} {:>9.4f} {:>9}\n", "blocks first", ours, 1);
   for (const Json& p : out["peers"])
-    fmt::print("{:<24} {:>9.3f} {:>9.1f}{}\n", p["name"].get<std::string>(), p["seconds"].get<double>(), ours > 0.0 ? p["seconds"].get<double>() / ours : 0.0,
-               p["share_asked"].get<double>() < 1.0 ? fmt::format("  ({:.2f} % of the nodes, scaled up)", 100.0 * p["share_asked"].get<double>()) : "");
+    fmt::print(
+        "{:<24} {:>9.3f} {:>9.1f}{}\n", p["name"].get<std::string>(), p["seconds"].get<double>(),
+        ours > 0.0 ? p["seconds"].get<double>() / ours : 0.0,
+        p["share_asked"].get<double>() < 1.0 ? fmt::format("  ({:.2f} % of the nodes, scaled up)", 100.0 * p["share_asked"].get<double>()) : "");
   if (!settings.json.empty()) std::ofstream(settings.json) << out.dump(2) << "\n";
   return 0;
 }
@@ -382,17 +285,17 @@ int main(int argc, char** argv) {
   vantage::Settings settings;
   CLI::App app("Visibility of a lattice's nodes beside rays");
   app.add_option("--scene", settings.scene, "a built-in 3D scene or a mesh file")->capture_default_str();
-  app.add_option("--nodes", settings.nodes, "nodes along each edge")->delimiter(',')->capture_default_str();
-  app.add_option("--side", settings.side, "of the cube [m]")->capture_default_str();
-  app.add_option("--repeats", settings.repeats, "runs of which the median is taken")->capture_default_str();
+  app.add_option("--nodes", settings.nodes, "nodes along each edge")->delimiter(',')->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--side", settings.side, "of the cube [m]")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--repeats", settings.repeats, "runs of which the median is taken")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--threads", settings.threads, "at most")->capture_default_str();
-  app.add_option("--peer-nodes", settings.peer_nodes, "nodes along each edge for the peers")->capture_default_str();
-  app.add_option("--sample", settings.sample, "nodes asked by exact rays")->capture_default_str();
+  app.add_option("--peer-nodes", settings.peer_nodes, "nodes along each edge for the peers")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--sample", settings.sample, "nodes asked by exact rays")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--json", settings.json, "write all figures to this file");
   CLI11_PARSE(app, argc, argv);
   try {
     return vantage::run(settings);
-  } catch (const vantage::Error& e) {
+  } catch (const std::exception& e) {
     fmt::print(stderr, "bench_visibility: {}\n", e.what());
     return 2;
   }

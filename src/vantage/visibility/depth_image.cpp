@@ -47,7 +47,8 @@ template <int Dim>
   requires SpatialDim<Dim>
 PixelRun<Dim> DepthImage<Dim>::run(std::size_t pixel) const {
   const auto axis = static_cast<int>(pixel / pixels_per_face()) / 2, last = (axis + Dim - 1) % Dim;
-  PixelRun<Dim> run{place(pixel), Vec<Dim>::Unit(last), static_cast<double>(pixel % static_cast<std::size_t>(resolution_)) + 0.5, static_cast<double>(resolution_)};
+  PixelRun<Dim> run{place(pixel), Vec<Dim>::Unit(last), static_cast<double>(pixel % static_cast<std::size_t>(resolution_)) + 0.5,
+                    static_cast<double>(resolution_)};
   run.base[last] = 0.0;
   return run;
 }

@@ -30,10 +30,10 @@ VANTAGE_LANES float quick_angle(float y, float x) {
 
 /// What a run of directions needs to find its columns and rows, in the sensor frame.
 struct Guess {
-  float base[3], along[3];           ///< Of the run; the third is the height, 0 in the plane.
-  float first, step;                 ///< Of the run.
-  float columns, rows;               ///< Per radian.
-  float column, row;                 ///< Straight ahead.
+  float base[3], along[3];  ///< Of the run; the third is the height, 0 in the plane.
+  float first, step;        ///< Of the run.
+  float columns, rows;      ///< Per radian.
+  float column, row;        ///< Straight ahead.
   float column_error, row_error;
 };
 

@@ -30,8 +30,7 @@ class Classifier {
   };
   enum class Verdict : std::uint8_t { hidden, seen, mixed };
 
-  Classifier(const DepthPyramid<Dim>& pyramid, const Viewpoint<Dim>& viewpoint, Set& set)
-      : pyramid_(pyramid), set_(set), window_(set.window()) {
+  Classifier(const DepthPyramid<Dim>& pyramid, const Viewpoint<Dim>& viewpoint, Set& set) : pyramid_(pyramid), set_(set), window_(set.window()) {
     const DepthImage<Dim>& image = pyramid.image();
     look_ = {image.ranges().data(), image.resolution(), window_.spacing, viewpoint.max_range * viewpoint.max_range, viewpoint.origin};
   }

@@ -12,8 +12,8 @@ namespace vantage {
 struct SieveForms {
   bool polygon;
   double value[4], change[4];
-  double square;        ///< |direction|^2 = square + w^2.
-  double first, step;   ///< Of w.
+  double square;       ///< |direction|^2 = square + w^2.
+  double first, step;  ///< Of w.
   double excess, height, slack;
 };
 

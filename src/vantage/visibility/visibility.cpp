@@ -73,9 +73,9 @@ Field<Dim> visibility(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan
   return phi;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                               \
-  template DepthImage<D> depth_image<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&);        \
-  template SeenSet<D> seen_by<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&);               \
+#define VANTAGE_INSTANTIATE(D)                                                                                                        \
+  template DepthImage<D> depth_image<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&); \
+  template SeenSet<D> seen_by<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&);        \
   template Field<D> visibility<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -214,7 +214,8 @@ float least_of_neighbours(const Scan<Dim>& scan, const Vec<Dim>& direction) {
   for (const int c : {0, 1})
     for (const int r : {0, 1}) {
       const int at = static_cast<int>(std::floor(column)) + c;
-      const float range = scan.range(wraps ? at % columns : std::clamp(at, 0, columns - 1), std::clamp(static_cast<int>(std::floor(row)) + r, 0, rows - 1));
+      const float range =
+          scan.range(wraps ? at % columns : std::clamp(at, 0, columns - 1), std::clamp(static_cast<int>(std::floor(row)) + r, 0, rows - 1));
       least = std::min(least, std::isnan(range) ? 0.0F : std::min(range, static_cast<float>(scan.pattern.max_range)));
     }
   return least;
