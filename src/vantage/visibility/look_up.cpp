@@ -10,10 +10,11 @@ static_assert(kLanes == SeenSet<3>::kSide);
 using Reals = Lanes<double>;
 using Pixels = Lanes<std::int32_t>;
 
-/// DepthImage::pixel() along one axis of a face; `w` is at least -1.
+/// DepthImage::pixel() along one axis of a face. Lanes that another face answers for may hold anything.
 VANTAGE_LANES std::int32_t to_pixel(double w, double resolution) {
   const double t = (w + 1.0) * 0.5 * resolution, last = resolution - 1.0;
-  return static_cast<std::int32_t>(t < last ? t : last);
+  const double low = t < last ? t : last;
+  return static_cast<std::int32_t>(low > 0.0 ? low : 0.0);
 }
 
 /// Pixels of nodes whose largest offset is along axis 0; `size` is its magnitude.

@@ -14,10 +14,10 @@ template <int Dim>
   requires SpatialDim<Dim>
 class SeenSet {
  public:
-  static constexpr int kSide = 8;                             ///< Nodes along each edge of a block.
-  static constexpr std::size_t kNodes = Dim == 2 ? 64 : 512;  ///< In a block.
-  using Bits = std::array<std::uint8_t, kNodes / kSide>;      ///< A byte per row along axis 0, lowest bit first; rows along axis 1, 2.
-  static constexpr std::int32_t kHidden = -1, kSeen = -2;     ///< Entries of blocks without bits.
+  static constexpr int kSide = 8;                                     ///< Nodes along each edge of a block.
+  static constexpr std::size_t kNodes = std::size_t{1} << (3 * Dim);  ///< In a block.
+  using Bits = std::array<std::uint8_t, kNodes / kSide>;              ///< A byte per row along axis 0, lowest bit first; rows along axis 1, 2.
+  static constexpr std::int32_t kHidden = -1, kSeen = -2;             ///< Entries of blocks without bits.
 
   explicit SeenSet(const Grid<Dim>& window);
 
