@@ -30,10 +30,10 @@ VANTAGE_LANES float quick_angle(float y, float x) {
 
 /// What a run of directions needs to find its columns and rows, in the sensor frame.
 struct Guess {
-  float base[3], along[3];  ///< Of the run; the third is the height, 0 in the plane.
-  float first, step;        ///< Of the run.
-  float columns, rows;      ///< Per radian.
-  float column, row;        ///< Straight ahead.
+  std::array<float, 3> base, along;  ///< Of the run; the third is the height, 0 in the plane.
+  float first, step;                 ///< Of the run.
+  float columns, rows;               ///< Per radian.
+  float column, row;                 ///< Straight ahead.
   float column_error, row_error;
 };
 
@@ -42,16 +42,25 @@ struct Places {
   Lanes<std::int32_t> column, row, unsure;
 };
 
+/// How far a number above zero is from the nearest whole one.
+VANTAGE_LANES float off_whole(float x) {
+  const float up = x + 0.5F;
+  const float off = x - static_cast<float>(static_cast<std::int32_t>(up));
+  return off < 0.0F ? -off : off;
+}
+
 VANTAGE_LANES void guess(const Guess& g, Places& out) {
   for (int k = 0; k < kLanes; ++k) {
     const float w = g.first + static_cast<float>(k) * g.step;
     const float x = g.base[0] + w * g.along[0], y = g.base[1] + w * g.along[1], z = g.base[2] + w * g.along[2];
     const float flat2 = x * x + y * y, flat = __builtin_sqrtf(flat2);
     const float c = 2.0F * (quick_angle(y, x) * g.columns + g.column), r = 2.0F * (quick_angle(z, flat) * g.rows + g.row);
-    const float dc = c - static_cast<float>(static_cast<std::int32_t>(c + 0.5F)), dr = r - static_cast<float>(static_cast<std::int32_t>(r + 0.5F));
+    const float dc = off_whole(c), dr = off_whole(r);
     out.column[k] = static_cast<std::int32_t>(c);
     out.row[k] = static_cast<std::int32_t>(r);
-    out.unsure[k] = ((dc < g.column_error) & (dc > -g.column_error)) | ((dr < g.row_error) & (dr > -g.row_error)) | (flat2 < 0.02F * (flat2 + z * z));
+    // Without a branch, for the vectors.
+    out.unsure[k] = static_cast<std::int32_t>(dc < g.column_error) | static_cast<std::int32_t>(dr < g.row_error) |
+                    static_cast<std::int32_t>(flat2 < 0.02F * (flat2 + z * z));
   }
 }
 
