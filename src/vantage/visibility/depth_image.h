@@ -9,6 +9,19 @@
 
 namespace vantage {
 
+/// A row of pixels, or the rest of one: directions `base + w along`, not of unit length.
+template <int Dim>
+struct PixelRun {
+  Vec<Dim> base, along;
+  double column = 0.5;      ///< Of the first pixel's centre, in pixels.
+  double resolution = 1.0;  ///< Of the image.
+
+  /// w of the k-th pixel.
+  [[nodiscard]] double offset(int k) const { return (column + k) * 2.0 / resolution - 1.0; }
+  /// Unit direction of the k-th pixel's centre, the same bits as DepthImage::direction().
+  [[nodiscard]] Vec<Dim> direction(int k) const { return (base + offset(k) * along).normalized(); }
+};
+
 /// Range of the first occluder per direction: a cube map (in 2D the four sides of a square), so that a look-up needs no trigonometry.
 template <int Dim>
   requires SpatialDim<Dim>
@@ -21,8 +34,13 @@ class DepthImage {
   /// Pixel that holds `direction` (any length but 0).
   [[nodiscard]] std::size_t pixel(const Vec<Dim>& direction) const;
   /// Unit direction of a pixel's centre.
-  [[nodiscard]] Vec<Dim> direction(std::size_t pixel) const;
+  [[nodiscard]] Vec<Dim> direction(std::size_t pixel) const { return place(pixel).normalized(); }
+  /// The pixel's centre on the cube from -1 to 1.
+  [[nodiscard]] Vec<Dim> place(std::size_t pixel) const;
+  /// The directions from `pixel` to the end of its row.
+  [[nodiscard]] PixelRun<Dim> run(std::size_t pixel) const;
   [[nodiscard]] std::size_t size() const { return ranges_.size(); }
+  [[nodiscard]] std::span<const float> ranges() const { return ranges_; }
   [[nodiscard]] float& operator[](std::size_t pixel) { return ranges_[pixel]; }
   [[nodiscard]] float operator[](std::size_t pixel) const { return ranges_[pixel]; }
   /// Pixels [low, high) along each of the face's Dim - 1 axes.
@@ -32,22 +50,6 @@ class DepthImage {
   };
   /// Pixels of `face` (0 .. 2 Dim - 1) whose directions can meet `box`, given relative to the viewpoint.
   [[nodiscard]] Rectangle rectangle(int face, const Box<Dim>& box) const;
-  /// Calls f(pixel) for the pixels of `area` on `face`, the last axis fastest.
-  template <class F>
-  void for_pixels(int face, const Rectangle& area, F&& f) const {
-    Eigen::Matrix<int, Dim - 1, 1> at = area.low;
-    while (!area.empty()) {
-      auto pixel = static_cast<std::size_t>(face);
-      for (int k = 0; k < Dim - 1; ++k) pixel = pixel * static_cast<std::size_t>(resolution_) + static_cast<std::size_t>(at[k]);
-      f(pixel);
-      int k = Dim - 2;
-      while (k >= 0 && ++at[k] == area.high[k]) {
-        at[k] = area.low[k];
-        --k;
-      }
-      if (k < 0) return;
-    }
-  }
   [[nodiscard]] std::size_t pixels_per_face() const { return ranges_.size() / (2 * Dim); }
 
  private:

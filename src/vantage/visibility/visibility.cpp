@@ -7,7 +7,7 @@
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/field/distance.h"
-#include "vantage/visibility/depth_image.h"
+#include "vantage/visibility/seen_from.h"
 
 namespace vantage {
 namespace {
@@ -37,27 +37,47 @@ void describe(VisibilityOptions& o, const OptionVisitor& visit) {
 
 template <int Dim>
   requires SpatialDim<Dim>
-Field<Dim> visibility(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan, const Grid<Dim>& window, double eta,
-                      const VisibilityOptions& options) {
+DepthImage<Dim> depth_image(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan, const Grid<Dim>& window, double eta,
+                            const VisibilityOptions& options) {
   check_options(options, "visibility");
-  require_memory(static_cast<double>(window.size()), 16.0, "visibility: the lattice");
   DepthImage<Dim> image(resolution_for(scan, window), static_cast<float>(scan.pattern.max_range));
   if (options.range_image) draw_ranges(image, scan);
   if (options.patches) draw_patches<Dim>(image, patches, scan.origin, eta, options.cone_angle);
+  return image;
+}
 
+template <int Dim>
+  requires SpatialDim<Dim>
+SeenSet<Dim> seen_by(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan, const Grid<Dim>& window, double eta,
+                     const VisibilityOptions& options) {
+  return seen_from(depth_image(patches, scan, window, eta, options), Viewpoint<Dim>{scan.origin, scan.pattern.max_range}, window);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+Field<Dim> visibility(std::span<const Patch<Dim>> patches, const Scan<Dim>& scan, const Grid<Dim>& window, double eta,
+                      const VisibilityOptions& options) {
+  require_memory(static_cast<double>(window.size()), 16.0, "visibility: the lattice");
+  const SeenSet<Dim> set = seen_by(patches, scan, window, eta, options);
   Field<Dim> phi = distance_to_patches(patches, window);
   const auto tolerance = static_cast<float>(eta);
-  parallel_for(phi.values.size(), 1 << 12, [&](std::size_t i) {
-    const Vec<Dim> offset = window.position(i) - scan.origin;
-    const double range = offset.norm();
-    const bool seen = range <= scan.pattern.max_range && (range == 0.0 || range <= static_cast<double>(image[image.pixel(offset)]));
-    const float depth = std::max(phi[i] - tolerance, std::numeric_limits<float>::min());
-    phi[i] = seen ? depth : -depth;
+  parallel_for(set.blocks().size(), 64, [&](std::size_t block) {
+    set.for_rows(block, [&](std::size_t begin, int count, unsigned seen) {
+      float* const row = &phi[begin];
+      for (int k = 0; k < count; ++k) {
+        const float depth = std::max(row[k] - tolerance, std::numeric_limits<float>::min());
+        row[k] = (seen >> k & 1U) != 0 ? depth : -depth;
+      }
+    });
   });
   return phi;
 }
 
-template Field<2> visibility<2>(std::span<const Patch<2>>, const Scan<2>&, const Grid<2>&, double, const VisibilityOptions&);
-template Field<3> visibility<3>(std::span<const Patch<3>>, const Scan<3>&, const Grid<3>&, double, const VisibilityOptions&);
+#define VANTAGE_INSTANTIATE(D)                                                                                                        \
+  template DepthImage<D> depth_image<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&); \
+  template SeenSet<D> seen_by<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&);        \
+  template Field<D> visibility<D>(std::span<const Patch<D>>, const Scan<D>&, const Grid<D>&, double, const VisibilityOptions&);
+VANTAGE_INSTANTIATE(2)
+VANTAGE_INSTANTIATE(3)
 
 }  // namespace vantage

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "vantage/base/parallel.h"
 #include "vantage/visibility/depth_image.h"
+#include "vantage/visibility/seen_from.h"
 
 namespace vantage {
 namespace {
@@ -144,6 +147,158 @@ TYPED_TEST(Visibility, DepthImageEqualsAskingEveryPatch) {
     }
     ASSERT_NEAR(image[p], nearest, 1e-4);
   }
+}
+
+/// Rectangles hide at least what every place within the margin hides, and at most what lies within their mitred corners.
+TEST(VisibilityPolygons, LieBetweenRoundAndMitredCorners) {
+  std::vector<Patch<3>> patches;
+  for (int i = 0; i < 60; ++i) {
+    const auto turn = [&](int k) { return std::fmod(0.618 * (5 * i + k), 1.0); };
+    const Vec<3> corner(20.0 * turn(0) - 10.0, 20.0 * turn(1) - 10.0, 8.0 * turn(2) - 4.0);
+    const Vec<3> a = (1.0 + 3.0 * turn(3)) * Vec<3>(turn(4) - 0.5, turn(1) - 0.4, turn(2) - 0.3).normalized();
+    const Vec<3> b = 1.5 * a.cross(Vec<3>(turn(2), turn(3) - 0.5, 0.7)).normalized();
+    Patch<3> patch;
+    patch.count = 4;
+    patch.vertices[0] = corner;
+    patch.vertices[1] = corner + a;
+    patch.vertices[2] = corner + a + b;
+    patch.vertices[3] = corner + b;
+    patches.push_back(patch);
+  }
+  const Vec<3> origin(0.2, 0.1, -0.3);
+  for (const double margin : {0.0, 0.1, 0.5}) {
+    DepthImage<3> image(48, 30.0F);
+    draw_patches<3>(image, patches, origin, margin, 0.0);
+    std::size_t met = 0;
+    for (std::size_t p = 0; p < image.size(); ++p) {
+      double round = 30.0, mitred = 30.0;
+      for (const Patch<3>& patch : patches) {
+        round = std::min(round, ray_range<3>(patch, origin, image.direction(p), margin).value_or(kInfinity));
+        mitred = std::min(mitred, ray_range<3>(patch, origin, image.direction(p), 1.4143 * margin + 1e-9).value_or(kInfinity));
+      }
+      ASSERT_LE(image[p], round + 1e-4);
+      ASSERT_GE(image[p], mitred - 1e-4);
+      met += image[p] < 30.0F ? 1 : 0;
+    }
+    EXPECT_GT(met, image.size() / 20);
+  }
+}
+
+/// Any rotation of the sensor frame, by turns in the planes of two axes.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> turned(double angle) {
+  Eigen::Matrix<double, Dim, Dim> r = Eigen::Matrix<double, Dim, Dim>::Identity();
+  for (int a = 0; a < Dim; ++a)
+    for (int b = a + 1; b < Dim; ++b) {
+      const auto [s, c] = sin_cos(angle * (1 + a + b));
+      Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+      turn(a, a) = turn(b, b) = c;
+      turn(a, b) = -s;
+      turn(b, a) = s;
+      r = turn * r;
+    }
+  return r;
+}
+
+/// Oracle: the column and row of a direction by angles, then the least of the 2 x 2 rays around.
+template <int Dim>
+float least_of_neighbours(const Scan<Dim>& scan, const Vec<Dim>& direction) {
+  const Vec<Dim> d = scan.world_from_sensor.transpose() * direction;
+  const int columns = scan.pattern.columns(), rows = scan.pattern.template rows<Dim>();
+  const bool wraps = scan.pattern.full_circle();
+  const double azimuth = angle_of(d[1], d[0]), elevation = angle_of((Dim - 2) * d[Dim - 1], d.template head<2>().norm());
+  const double column = wraps ? (azimuth + kPi) / (2.0 * kPi) * columns : azimuth / scan.pattern.step + 0.5 * (columns - 1);
+  const double row = elevation / scan.pattern.step + 0.5 * (rows - 1), half = 0.5 + 1e-9;
+  if ((!wraps && std::abs(column - 0.5 * (columns - 1)) > 0.5 * (columns - 1) + half) || row < -half || row > rows - 1 + half) return 0.0F;
+  float least = std::numeric_limits<float>::infinity();
+  for (const int c : {0, 1})
+    for (const int r : {0, 1}) {
+      const int at = static_cast<int>(std::floor(column)) + c;
+      const float range =
+          scan.range(wraps ? at % columns : std::clamp(at, 0, columns - 1), std::clamp(static_cast<int>(std::floor(row)) + r, 0, rows - 1));
+      least = std::min(least, std::isnan(range) ? 0.0F : std::min(range, static_cast<float>(scan.pattern.max_range)));
+    }
+  return least;
+}
+
+TYPED_TEST(Visibility, RangesAreTheLeastOfTheRaysAround) {
+  constexpr int Dim = TypeParam::value;
+  for (const double fov : {360.0, 90.0, 200.0})
+    for (const double step : {0.4, 3.0, 30.0})
+      for (const double turn : {0.0, 0.5 * kPi, 0.7}) {
+        Scan<Dim> scan;
+        scan.pattern.step = radians(step);
+        scan.pattern.horizontal_fov = radians(fov);
+        scan.pattern.vertical_fov = radians(fov < 180.0 ? 60.0 : 179.5);
+        scan.world_from_sensor = turned<Dim>(turn);
+        const std::size_t rays = directions<Dim>(scan.pattern).size();
+        for (std::size_t i = 0; i < rays; ++i)
+          scan.ranges.push_back(i % 17 == 3 ? kNoData : i % 11 == 5 ? kNoReturn : 2.0F + static_cast<float>(i * 7919 % 5003) * 0.01F);
+        DepthImage<Dim> image(97, 40.0F);
+        draw_ranges(image, scan);
+        for (std::size_t p = 0; p < image.size(); ++p)
+          ASSERT_EQ(image[p], std::min(40.0F, least_of_neighbours<Dim>(scan, image.direction(p)))) << fov << " " << step << " " << turn;
+      }
+}
+
+/// A node's answer is that of its pixel's centre, half a pixel's diagonal away at most: where exact rays differ, they differ within that angle.
+TYPED_TEST(Visibility, DiffersFromExactRaysWithinHalfAPixel) {
+  constexpr int Dim = TypeParam::value;
+  std::vector<Patch<Dim>> patches = points_of(scan_of_ball<Dim>(6.0));
+  for (std::size_t i = 0; i + 1 < patches.size(); i += 2) patches[i] = segment_patch<Dim>(patches[i].vertices[0], patches[i + 1].vertices[0]);
+  const Vec<Dim> origin = Vec<Dim>::Constant(0.13);
+  const double eta = 0.1, far = 9.0;
+  const auto first = [&](const Vec<Dim>& u) {
+    double range = far;
+    for (const Patch<Dim>& patch : patches) range = std::min(range, ray_range<Dim>(patch, origin, u, eta).value_or(kInfinity));
+    return range;
+  };
+  for (const int resolution : {64, 65, 256}) {
+    DepthImage<Dim> image(resolution, static_cast<float>(far));
+    draw_patches<Dim>(image, patches, origin, eta, 0.0);
+    const Grid<Dim> window = window_around_origin<Dim>(6.0, Dim == 2 ? 0.1 : 0.41);
+    int differ = 0, hidden = 0;
+    for (std::size_t i = 0; i < window.size(); ++i) {
+      const Vec<Dim> offset = window.position(i) - origin;
+      const double range = offset.norm();
+      const Vec<Dim> u = offset / range, center = image.direction(image.pixel(offset));
+      ASSERT_LE((u - center).norm(), std::sqrt(Dim - 1.0) / resolution * (1.0 + 1e-9));
+      if (range > far) continue;
+      const bool seen = sees<Dim>(image, far, offset), exact = range <= first(u);
+      hidden += exact ? 0 : 1;
+      if (seen == exact) continue;
+      ++differ;
+      const double there = first(center);
+      ASSERT_TRUE(std::abs(there - range) < 1e-5 || seen == (range <= there)) << offset.transpose();
+    }
+    EXPECT_GT(hidden, 50);
+    EXPECT_LE(differ, hidden * 20 / resolution);  // They follow the rim, so their share falls with the size of a pixel.
+  }
+}
+
+/// Law of the cones: what a cone meets is the least over the plain rays in it.
+TYPED_TEST(Visibility, ConeIsTheLeastOverItsOpening) {
+  constexpr int Dim = TypeParam::value;
+  const std::vector<Patch<Dim>> patches = points_of(scan_of_ball<Dim>(8.0));
+  const int resolution = Dim == 2 ? 2000 : 120;
+  const double half = radians(5.0), pixel = std::sqrt(Dim - 1.0) / resolution, margin = 10.0 / resolution;  // No point falls between pixels.
+  DepthImage<Dim> plain(resolution, 50.0F), cone(resolution, 50.0F);
+  draw_patches<Dim>(plain, patches, Vec<Dim>::Zero(), margin, 0.0);
+  draw_patches<Dim>(cone, patches, Vec<Dim>::Zero(), margin, 2.0 * half);
+  std::size_t lowered = 0;
+  for (std::size_t p = 0; p < cone.size(); p += 23) {
+    float inner = 50.0F, outer = 50.0F;
+    for (std::size_t q = 0; q < plain.size(); ++q) {
+      if (plain[q] >= 50.0F) continue;
+      const double angle = (cone.direction(p) - cone.direction(q)).norm();
+      if (angle <= half - 2.0 * pixel) inner = std::min(inner, plain[q]);
+      if (angle <= half + 2.0 * pixel) outer = std::min(outer, plain[q]);
+    }
+    ASSERT_LE(cone[p], inner * 1.001F);
+    ASSERT_GE(cone[p], outer * 0.99F);
+    lowered += cone[p] < plain[p] ? 1 : 0;
+  }
+  EXPECT_GT(lowered, 10U);
 }
 
 /// Sharing a wall out among patches with a gap: plain rays leak through, the 1 degree cone does not.
