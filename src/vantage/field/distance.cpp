@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "vantage/base/parallel.h"
-#include "vantage/field/line_minimum.h"
-#include "vantage/field/squared_distance.h"
+#include "vantage/field/tiled_distance.h"
 
 namespace vantage {
 namespace {
@@ -99,18 +98,6 @@ struct Transform {
   }
 };
 
-/// Squared distances in steps of the lattice from the sites.
-template <int Dim>
-Field<Dim> squares_of(const Field<Dim, std::int32_t>& sites) {
-  Field<Dim> out(sites.window, kFarSquare);
-  parallel_for(out.values.size(), 1 << 12, [&](std::size_t i) {
-    if (sites[i] == kNoSite) return;
-    const Index<Dim> step = sites.window.local(i) - sites.window.local(static_cast<std::size_t>(sites[i]));
-    out[i] = static_cast<float>(step.squaredNorm());
-  });
-  return out;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -123,12 +110,13 @@ template <int Dim>
   requires SpatialDim<Dim>
 Field<Dim> distance_to_set(const Field<Dim, std::uint8_t>& set, double cap) {
   const Grid<Dim>& window = set.window;
-  // Beyond what float squares hold exactly: by way of the sites.
-  const bool exact = window.extent.template cast<double>().squaredNorm() < kExactSquare;
-  Field<Dim> out = exact ? squared_distances(set) : squares_of(nearest_sites(set));
-  parallel_for(out.values.size(), 1 << 14, [&](std::size_t i) {
-    const float squared = out[i];
-    out[i] = static_cast<float>(squared >= kFarSquare ? cap : std::min(cap, std::sqrt(static_cast<double>(squared)) * window.spacing));
+  if (exact_in_float(window)) return tiled_distance(set, cap);
+  const Field<Dim, std::int32_t> site = nearest_sites(set);
+  Field<Dim> out(window, static_cast<float>(cap));
+  parallel_for(out.values.size(), 1 << 12, [&](std::size_t i) {
+    if (site[i] == kNoSite) return;
+    const Vec<Dim> steps = (window.local(i) - window.local(static_cast<std::size_t>(site[i]))).template cast<double>();
+    out[i] = static_cast<float>(std::min(cap, std::sqrt(steps.squaredNorm()) * window.spacing));
   });
   return out;
 }

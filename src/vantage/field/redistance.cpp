@@ -7,7 +7,7 @@
 #include "vantage/field/distance.h"
 #include "vantage/field/fast_marching.h"
 #include "vantage/field/line_minimum.h"
-#include "vantage/field/squared_distance.h"
+#include "vantage/field/tiled_distance.h"
 
 namespace vantage {
 namespace {
@@ -35,37 +35,16 @@ double interface_distance(const Field<Dim>& phi, std::size_t node) {
   return inverse_squares > 0.0 ? 1.0 / std::sqrt(inverse_squares) : kInfinity;
 }
 
-/// Signed distance of every signed square from -reach^2 to reach^2 [m].
-std::vector<float> signed_distances(int reach, double h, double cap) {
-  const int last = reach * reach;
-  const double half = 0.5 * h;
-  std::vector<float> table;
-  for (int s = -last; s <= last; ++s) {
-    const auto d = static_cast<float>(std::min(cap + half, std::sqrt(static_cast<double>(std::abs(s))) * h));
-    table.push_back(s > 0 ? static_cast<float>(d - half) : static_cast<float>(half - d));
-  }
-  return table;
-}
-
 }  // namespace
 
 template <int Dim>
   requires SpatialDim<Dim>
 Field<Dim> signed_distance(const Field<Dim, std::uint8_t>& inside, double cap) {
-  const double h = inside.window.spacing, half = 0.5 * h;
-  Field<Dim> psi(inside.window);
-  if (const double reach = std::floor((cap + half) / h) + 1.0; reach <= kMaxLimit) {
-    const Field<Dim, std::int16_t> squares = signed_squares(inside, static_cast<int>(reach));
-    const std::vector<float> table = signed_distances(static_cast<int>(reach), h, cap);
-    const int last = static_cast<int>(table.size() / 2);
-    parallel_chunks(psi.values.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) psi[i] = table[static_cast<std::size_t>(std::clamp<int>(squares[i], -last, last) + last)];
-    });
-    return psi;
-  }
+  if (signed_reach(inside.window.spacing, cap) <= kMaxLimit) return tiled_signed_distance(inside, cap);
+  const double half = 0.5 * inside.window.spacing;
   Field<Dim, std::uint8_t> outside(inside.window);
   for (std::size_t i = 0; i < inside.values.size(); ++i) outside[i] = inside[i] == 0;
-  psi = distance_to_set(outside, cap + half);
+  Field<Dim> psi = distance_to_set(outside, cap + half);
   const Field<Dim> depth = distance_to_set(inside, cap + half);
   parallel_for(psi.values.size(), 1 << 14,
                [&](std::size_t i) { psi[i] = inside[i] != 0 ? static_cast<float>(psi[i] - half) : static_cast<float>(half - depth[i]); });
