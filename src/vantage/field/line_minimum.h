@@ -14,8 +14,8 @@ inline constexpr std::size_t kLanes = 16;
 inline constexpr float kFarSquare = 33554432.0F;  // 2^25
 /// Squares below are exact in float, sums with another square included.
 inline constexpr double kExactSquare = 16777216.0;  // 2^24
-inline constexpr std::int16_t kFarShort = 16384;
-inline constexpr int kMaxLimit = 120;  ///< kFarShort plus the square of this and a few rows more fits 16 bits.
+/// Twice its square, and a few rows more, fit 16 bits.
+inline constexpr int kMaxLimit = 120;
 
 /// The distance transform of lines of `length`: value[i] <- min over j of value[j] + (i - j)^2, for whole squares below kExactSquare and kFarSquare.
 /// Exact. The nearest j never falls as i grows, so that a row searches only between what two rows farther apart have found (divide and conquer):
@@ -31,17 +31,16 @@ class LineMinimum {
   std::vector<float> squares_;  // (j - i)^2 from j - i = 1 - length on, each four times.
 };
 
-/// Both sides at once, up to a limit: value > 0 is a node's squared distance to the nearest one that is < 0 and the other way round (kFarShort: none).
-/// Each becomes the least over j of value[j] (0 across the boundary) + (i - j)^2; squares above limit^2 come out as anything above it.
+/// Both sides at once: value > 0 is a node's squared distance to the nearest one that is < 0 and the other way round. Each becomes the least over j of
+/// value[j] (0 across the boundary) + (i - j)^2. No value is above kMaxLimit^2; one that stands for "at least" stays so. Groups of rows that hold
+/// nothing near are skipped.
 class SignedLineMinimum {
  public:
-  /// `limit`: at most kMaxLimit.
-  SignedLineMinimum(std::size_t length, int limit) : length_(length), limit_(limit) {}
+  explicit SignedLineMinimum(std::size_t length) : length_(length) {}
   void operator()(const std::int16_t* tile, std::int16_t* out) const;
 
  private:
   std::size_t length_;
-  int limit_;
 };
 
 }  // namespace vantage

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
+#include <vector>
 
 #include "vantage/field/line_minimum.h"
 
@@ -45,6 +47,17 @@ void add_to(std::int16_t* at, const Row& row, int side) {
   std::memcpy(at, &sum, sizeof sum);
 }
 
+/// Whether any value of the side is in the tile.
+template <int Side>
+bool has_side(const std::int16_t* tile, std::size_t length) {
+  Row most{};
+  for (std::size_t i = 0; i < length; ++i) {
+    const Row row = load_side<Side>(tile + i * kLanes);
+    for (std::size_t p = 0; p < row.size(); ++p) most[p] = Most()(most[p], row[p]);
+  }
+  return over_lanes(most, Most()) != 0;
+}
+
 /// The rows [first, last) as row i sees them.
 template <int Side>
 void look_at(const std::int16_t* tile, std::ptrdiff_t i, std::ptrdiff_t first, std::ptrdiff_t last, Row& best) {
@@ -58,7 +71,7 @@ void look_at(const std::int16_t* tile, std::ptrdiff_t i, std::ptrdiff_t first, s
 /// Least of the kGroup rows from each on, over all lanes.
 template <int Side>
 std::vector<std::int16_t> group_minima(const std::int16_t* tile, std::size_t length) {
-  std::vector<std::int16_t> least(length + kGroup, kFarShort);
+  std::vector<std::int16_t> least(length + kGroup, std::numeric_limits<std::int16_t>::max());
   for (std::size_t i = 0; i < length; ++i) least[i] = static_cast<std::int16_t>(over_lanes(load_side<Side>(tile + i * kLanes), Least()));
   for (std::size_t reach = 1; reach < kGroup; reach *= 2)
     for (std::size_t i = 0; i + reach < least.size(); ++i) least[i] = std::min(least[i], least[i + reach]);
@@ -66,7 +79,8 @@ std::vector<std::int16_t> group_minima(const std::int16_t* tile, std::size_t len
 }
 
 template <int Side>
-void one_side(const std::int16_t* tile, std::int16_t* out, std::size_t length, int limit) {
+void one_side(const std::int16_t* tile, std::int16_t* out, std::size_t length) {
+  if (!has_side<Side>(tile, length)) return;
   const std::vector<std::int16_t> least = group_minima<Side>(tile, length);
   const auto n = static_cast<std::ptrdiff_t>(length), group = static_cast<std::ptrdiff_t>(kGroup);
   for (std::ptrdiff_t i = 0; i < n; ++i) {
@@ -74,7 +88,7 @@ void one_side(const std::int16_t* tile, std::int16_t* out, std::size_t length, i
     int worst = over_lanes(best, Most());
     if (worst == 0) continue;  // No node of this side.
     // Outward until nothing farther can be nearer, past groups that hold nothing near.
-    for (std::ptrdiff_t k = 1; k <= limit && k * k < worst; k += group) {
+    for (std::ptrdiff_t k = 1; k * k < worst; k += group) {
       const std::ptrdiff_t above = i + k, below = std::max<std::ptrdiff_t>(i - k - group + 1, 0);
       if (above < n && least[static_cast<std::size_t>(above)] + k * k < worst) look_at<Side>(tile, i, above, std::min(above + group, n), best);
       if (i >= k && least[static_cast<std::size_t>(below)] + k * k < worst) look_at<Side>(tile, i, below, i - k + 1, best);
@@ -88,8 +102,8 @@ void one_side(const std::int16_t* tile, std::int16_t* out, std::size_t length, i
 
 void SignedLineMinimum::operator()(const std::int16_t* tile, std::int16_t* out) const {
   std::fill(out, out + length_ * kLanes, std::int16_t{0});
-  one_side<1>(tile, out, length_, limit_);
-  one_side<-1>(tile, out, length_, limit_);
+  one_side<1>(tile, out, length_);
+  one_side<-1>(tile, out, length_);
 }
 
 }  // namespace vantage

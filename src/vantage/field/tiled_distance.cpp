@@ -108,9 +108,11 @@ class Across {
   using Value = std::int16_t;
 
   template <int Dim>
-  Across(const Grid<Dim>& window, double cap) : length_(static_cast<std::size_t>(window.extent[0])), ramps_(length_, kMaxLimit, kFarShort) {
+  Across(const Grid<Dim>& window, double cap)
+      : length_(static_cast<std::size_t>(window.extent[0])),
+        limit_(static_cast<int>(signed_reach(window.spacing, cap))),
+        ramps_(length_, static_cast<std::size_t>(limit_), static_cast<std::int16_t>(limit_ * limit_)) {
     const double h = window.spacing, half = 0.5 * h;
-    limit_ = static_cast<int>(signed_reach(h, cap));
     const int last = limit_ * limit_;
     for (int s = -last; s <= last; ++s) {
       const auto d = static_cast<float>(std::min(cap + half, std::sqrt(static_cast<double>(std::abs(s))) * h));
@@ -126,16 +128,15 @@ class Across {
       from = end;
     }
   }
-  [[nodiscard]] SignedLineMinimum kernel(std::size_t length) const { return SignedLineMinimum(length, limit_); }
+  [[nodiscard]] SignedLineMinimum kernel(std::size_t length) const { return SignedLineMinimum(length); }
   void write(const std::int16_t* from, float* to, std::size_t count) const {
-    const int last = limit_ * limit_;
-    const float* zero = distances_.data() + last;
-    for (std::size_t k = 0; k < count; ++k) to[k] = zero[std::clamp<int>(from[k], -last, last)];
+    const float* zero = distances_.data() + distances_.size() / 2;
+    for (std::size_t k = 0; k < count; ++k) to[k] = zero[from[k]];
   }
 
  private:
   std::size_t length_;
-  int limit_ = 0;
+  int limit_;  // Squares of limit and beyond are all limit^2: at the cap.
   Ramps<std::int16_t> ramps_;
   std::vector<float> distances_;  // Of every square from -limit^2 to limit^2 [m].
 };
