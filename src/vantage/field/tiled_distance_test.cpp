@@ -38,10 +38,70 @@ void for_sets(Check&& check) {
     }
 }
 
-/// Oracle: squared distance by way of the nearest site, found by the lower envelope of parabolas.
+/// Lower envelope of the parabolas (x - i)^2 + height[i]: for every x which i is lowest, smaller i first; kNoSite if no height is finite.
+struct Envelope {
+  std::vector<std::int32_t> apex;
+  std::vector<double> from;  // apex[k] is lowest from here on.
+
+  void build(const std::vector<std::int64_t>& height, std::vector<std::int32_t>& lowest) {
+    apex.clear();
+    from.clear();
+    const auto n = static_cast<std::int32_t>(height.size());
+    for (std::int32_t i = 0; i < n; ++i) {
+      if (height[static_cast<std::size_t>(i)] < 0) continue;
+      double start = -kInfinity;
+      while (!apex.empty()) {
+        const std::int32_t j = apex.back();
+        const auto gap = static_cast<double>(height[static_cast<std::size_t>(i)] - height[static_cast<std::size_t>(j)]);
+        start = (gap / (i - j) + (i + j)) * 0.5;
+        if (start > from.back()) break;
+        apex.pop_back();
+        from.pop_back();
+        start = -kInfinity;
+      }
+      apex.push_back(i);
+      from.push_back(start);
+    }
+    std::size_t k = 0;
+    for (std::int32_t x = 0; x < n; ++x) {
+      while (k + 1 < apex.size() && from[k + 1] < x) ++k;
+      lowest[static_cast<std::size_t>(x)] = apex.empty() ? kNoSite : apex[k];
+    }
+  }
+};
+
+/// Oracle: nearest sites axis by axis by the lower envelope of parabolas (Felzenszwalb and Huttenlocher 2012).
+template <int Dim>
+Field<Dim, std::int32_t> sites_by_envelopes(const Field<Dim, std::uint8_t>& set) {
+  const Grid<Dim>& grid = set.window;
+  Field<Dim, std::int64_t> squared(grid, -1);
+  Field<Dim, std::int32_t> site(grid, kNoSite);
+  for (std::size_t i = 0; i < set.values.size(); ++i)
+    if (set[i] != 0) squared[i] = 0, site[i] = static_cast<std::int32_t>(i);
+  for (int axis = 0; axis < Dim; ++axis) {
+    const auto length = static_cast<std::size_t>(grid.extent[axis]);
+    const std::size_t stride = grid.stride(axis);
+    for (std::size_t start = 0; start < grid.size(); ++start) {
+      if (start / stride % length != 0) continue;
+      std::vector<std::int64_t> height(length);
+      std::vector<std::int32_t> lowest(length), old(length);
+      for (std::size_t i = 0; i < length; ++i) height[i] = squared[start + i * stride], old[i] = site[start + i * stride];
+      Envelope().build(height, lowest);
+      for (std::size_t i = 0; i < length && lowest[i] != kNoSite; ++i) {
+        const auto from = static_cast<std::size_t>(lowest[i]);
+        const auto step = static_cast<std::int64_t>(i) - lowest[i];
+        squared[start + i * stride] = height[from] + step * step;
+        site[start + i * stride] = old[from];
+      }
+    }
+  }
+  return site;
+}
+
+/// Distance to those sites.
 template <int Dim>
 std::vector<double> distances_by_sites(const Field<Dim, std::uint8_t>& set) {
-  const Field<Dim, std::int32_t> site = nearest_sites(set);
+  const Field<Dim, std::int32_t> site = sites_by_envelopes(set);
   std::vector<double> d(set.values.size(), kInfinity);
   for (std::size_t i = 0; i < d.size(); ++i) {
     if (site[i] == kNoSite) continue;
@@ -60,6 +120,11 @@ TYPED_TEST(TiledDistance, IsTheEnvelopesToTheBit) {
       for (std::size_t i = 0; i < oracle.size(); ++i) ASSERT_EQ(d[i], static_cast<float>(std::min(cap, oracle[i])));
     }
   });
+}
+
+TYPED_TEST(TiledDistance, SitesAreTheEnvelopesTiesIncluded) {
+  constexpr int Dim = TypeParam::value;
+  for_sets<Dim>([](const Field<Dim, std::uint8_t>& set) { ASSERT_EQ(nearest_sites(set).values, sites_by_envelopes(set).values); });
 }
 
 TYPED_TEST(TiledDistance, SignedIsTheTwoUnsignedOnesToTheBit) {
@@ -94,7 +159,7 @@ TYPED_TEST(TiledDistance, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-/// Squares that a float no longer holds: the window is left to the sites.
+/// Squares that a float no longer holds are taken in double.
 TEST(WideWindows, AreExactToo) {
   Field<2, std::uint8_t> set(Grid<2>{1.0, {0, 0}, {6000, 3}});
   set[0] = 1;
@@ -102,27 +167,35 @@ TEST(WideWindows, AreExactToo) {
   const Field<2> d = distance_to_set(set);
   EXPECT_EQ(d[5999], 5999.0F);
   EXPECT_EQ(d.at({5999, 2}), static_cast<float>(std::sqrt(5999.0 * 5999.0 + 4.0)));
+  for (std::size_t i = 1; i < 40; ++i) set[i * 449] = 1;
+  EXPECT_EQ(nearest_sites(set).values, sites_by_envelopes(set).values);
 }
 
 /// Oracle: every pair of rows. Lanes are independent, some without any site.
-RC_GTEST_PROP(LineMinimum, IsTheLeastOverAllRows, (std::uint64_t seed)) {
+template <class Real>
+void check_lines(std::uint64_t seed) {
   Random random(seed);
   const auto length = 1 + static_cast<std::size_t>(random.uniform() * 90);
-  std::vector<float> tile(length * kLanes), out(tile.size());
+  std::vector<Real> tile(length * kLanes), out(tile.size());
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const double share = random.uniform() * random.uniform(), largest = std::pow(10.0, random.uniform(0.0, 6.0));
     for (std::size_t i = 0; i < length; ++i)
-      tile[i * kLanes + lane] = lane > 0 && random.uniform() < share ? static_cast<float>(std::floor(random.uniform() * largest)) : kFarSquare;
+      tile[i * kLanes + lane] = lane > 0 && random.uniform() < share ? static_cast<Real>(std::floor(random.uniform() * largest)) : kFarSquare<Real>;
   }
-  LineMinimum{length}(tile.data(), out.data());
+  LineMinimum<Real>{length}(tile.data(), out.data());
   for (std::size_t k = 0; k < out.size(); ++k) {
-    double least = kFarSquare;
+    Real least = kFarSquare<Real>;
     for (std::size_t j = 0; j < length; ++j) {
-      const double step = static_cast<double>(j) - static_cast<double>(k / kLanes);
-      least = std::min(least, static_cast<double>(tile[j * kLanes + k % kLanes]) + step * step);
+      const Real step = static_cast<Real>(j) - static_cast<Real>(k / kLanes);
+      least = std::min(least, tile[j * kLanes + k % kLanes] + step * step);
     }
-    RC_ASSERT(out[k] == static_cast<float>(least));
+    RC_ASSERT(out[k] == least);
   }
+}
+
+RC_GTEST_PROP(LineMinimum, IsTheLeastOverAllRows, (std::uint64_t seed)) {
+  check_lines<float>(seed);
+  check_lines<double>(seed);
 }
 
 }  // namespace
