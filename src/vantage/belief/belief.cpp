@@ -32,6 +32,21 @@ void for_common(const Grid<Dim>& part, const Grid<Dim>& a, const Grid<Dim>& b, F
   });
 }
 
+/// Steps from the node nearest to a place to all nodes that may lie within `reach` of the place, both in cells.
+template <int Dim>
+std::vector<Index<Dim>> steps_within(double reach) {
+  const auto side = static_cast<std::int32_t>(std::ceil(reach + 0.5));
+  Grid<Dim> cube;
+  cube.extent.setConstant(2 * side + 1);
+  std::vector<Index<Dim>> steps;
+  for (std::size_t i = 0; i < cube.size(); ++i) {
+    const Index<Dim> step = cube.local(i).array() - side;
+    const Vec<Dim> gap = (step.template cast<double>().cwiseAbs().array() - 0.5 - 1e-6).cwiseMax(0.0);
+    if (gap.norm() <= reach) steps.push_back(step);
+  }
+  return steps;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -50,25 +65,29 @@ template <int Dim>
 Grid<Dim> Belief<Dim>::add_walls(std::span<const Vec<Dim>> walls) {
   const Grid<Dim>& window = state_.window;
   const double reach = std::sqrt(static_cast<double>(Dim)) * window.spacing;
-  constexpr int kNodes = 5;  // sqrt(3) cells each way, from the nearest node.
-  int neighbours = 1;
-  for (int a = 0; a < Dim; ++a) neighbours *= kNodes;
-  Box<Dim> touched;
+  const std::vector<Index<Dim>> steps = steps_within<Dim>(reach / window.spacing);
+  Index<Dim> low = window.extent, high = Index<Dim>::Constant(-1);
   for (const Vec<Dim>& wall : walls) {
     const Index<Dim> center = window.nearest(wall);
     // A node this near has heard of this wall already: samples lie dense.
     if (window.inside(center) && static_cast<double>(wall_distance_.at(center)) < 0.1 * window.spacing) continue;
-    for (int code = 0; code < neighbours; ++code) {
-      Index<Dim> node = center;
-      for (int a = 0, rest = code; a < Dim; ++a, rest /= kNodes) node[a] += rest % kNodes - kNodes / 2;
+    for (const Index<Dim>& step : steps) {
+      const Index<Dim> node = center + step;
       if (!window.inside(node)) continue;
-      const auto distance = static_cast<float>((window.position(node) - wall).norm());
-      if (distance > static_cast<float>(reach) || distance >= wall_distance_.at(node)) continue;
-      wall_distance_.at(node) = distance;
-      touched.extend(window.position(node));
+      float& known = wall_distance_.at(node);
+      const double square = (window.position(node) - wall).squaredNorm();
+      const double limit = std::min(reach, static_cast<double>(known));
+      if (square > limit * limit * (1.0 + 1e-6)) continue;
+      const auto distance = static_cast<float>(std::sqrt(square));
+      if (distance > static_cast<float>(reach) || distance >= known) continue;
+      known = distance;
+      low = low.cwiseMin(node);
+      high = high.cwiseMax(node);
     }
   }
-  return touched.empty() ? Grid<Dim>{window.spacing, window.first, Index<Dim>::Zero()} : intersection(window_over(touched, window.spacing), window);
+  Grid<Dim> touched{window.spacing, window.first + low, high - low};
+  touched.extent.array() += 1;
+  return (high.array() < 0).any() ? Grid<Dim>{window.spacing, window.first, Index<Dim>::Zero()} : touched;
 }
 
 template <int Dim>

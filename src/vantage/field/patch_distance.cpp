@@ -87,10 +87,17 @@ Field<Dim> distance_to_patches(std::span<const Patch<Dim>> patches, const Grid<D
     Field<Dim, std::uint8_t> set(window);
     for (std::size_t i = 0; i < set.values.size(); ++i) set[i] = band.distance[i] <= static_cast<float>(reach);
     const Field<Dim, std::int32_t> site = nearest_sites(set);
-    parallel_for(site.values.size(), 1 << 12, [&](std::size_t i) {
-      if (set[i] != 0 || site[i] == kNoSite) return;
-      const std::int32_t owner = band.owner[static_cast<std::size_t>(site[i])];
-      band.distance[i] = static_cast<float>(distance(patches[static_cast<std::size_t>(owner)], window.position(i)));
+    const double farthest = (cap + reach) / window.spacing * (1.0 + 1e-9);  // No patch is within the cap of nodes farther from their site.
+    const auto row = static_cast<std::size_t>(window.extent[0]);
+    parallel_for(site.values.size() / std::max<std::size_t>(row, 1), 16, [&](std::size_t r) {
+      Index<Dim> here = window.local(r * row);
+      for (std::size_t i = r * row; i < (r + 1) * row; ++i, ++here[0]) {
+        if (set[i] != 0 || site[i] == kNoSite) continue;
+        const auto nearest = static_cast<std::size_t>(site[i]);
+        if ((here - window.local(nearest)).template cast<double>().squaredNorm() > farthest * farthest) continue;
+        const std::int32_t owner = band.owner[nearest];
+        band.distance[i] = static_cast<float>(distance(patches[static_cast<std::size_t>(owner)], window.position(here)));
+      }
     });
   }
   for (float& d : band.distance.values) d = std::min(d, limit);
