@@ -80,15 +80,13 @@ Grid<Dim> Belief<Dim>::add_walls(std::span<const Vec<Dim>> walls) {
     const Index<Dim> center = window.nearest(wall);
     // A node this near has heard of this wall already: samples lie dense.
     if (window.inside(center) && static_cast<double>(wall_distance_(center)) < 0.1 * window.spacing) continue;
+    const Vec<Dim> rest = window.position(center) - wall;
     for (const Index<Dim>& step : steps) {
+      if ((rest + window.spacing * step.template cast<double>()).squaredNorm() > reach * reach * (1.0 + 1e-6)) continue;
       const Index<Dim> node = center + step;
       if (!window.inside(node)) continue;
-      const float known = wall_distance_(node);
-      const double square = (window.position(node) - wall).squaredNorm();
-      const double limit = std::min(reach, static_cast<double>(known));
-      if (square > limit * limit * (1.0 + 1e-6)) continue;
-      const auto distance = static_cast<float>(std::sqrt(square));
-      if (distance > static_cast<float>(reach) || distance >= known) continue;
+      const auto distance = static_cast<float>((window.position(node) - wall).norm());
+      if (distance > static_cast<float>(reach) || distance >= wall_distance_(node)) continue;
       wall_distance_.at(node) = distance;
       low = low.cwiseMin(node);
       high = high.cwiseMax(node);

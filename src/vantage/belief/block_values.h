@@ -41,10 +41,16 @@ class BlockValues {
  private:
   static constexpr std::size_t kNodes = Dim == 2 ? 16 : 64;
 
-  [[nodiscard]] std::size_t block(const Index<Dim>& local) const { return blocks_.linear(local.array() / kSide); }
+  static constexpr auto kUnsignedSide = static_cast<std::uint32_t>(kSide);  // Plain shifts.
+
+  [[nodiscard]] std::size_t block(const Index<Dim>& local) const {
+    std::size_t i = 0;
+    for (int a = Dim - 1; a >= 0; --a) i = i * static_cast<std::size_t>(blocks_.extent[a]) + static_cast<std::uint32_t>(local[a]) / kUnsignedSide;
+    return i;
+  }
   [[nodiscard]] static std::size_t offset(const Index<Dim>& local) {
     std::size_t i = 0;
-    for (int a = Dim - 1; a >= 0; --a) i = i * kSide + static_cast<std::size_t>(local[a] % kSide);
+    for (int a = Dim - 1; a >= 0; --a) i = i * kUnsignedSide + static_cast<std::uint32_t>(local[a]) % kUnsignedSide;
     return i;
   }
 
