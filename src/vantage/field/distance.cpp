@@ -47,13 +47,13 @@ class SiteTransform {
     const LineMinimum<Real> minimum(shape.length);
     const std::size_t size = shape.length * kLanes;
     parallel_chunks(shape.stride, kTiles * kLanes, [&](std::size_t begin, std::size_t end) {
-      const std::vector<Real> old_squares = read_tiles(squares_.values.data() + at, shape, begin, end);
-      const std::vector<std::int32_t> old_sites = read_tiles(sites_.values.data() + at, shape, begin, end);
-      std::vector<Real> squares(old_squares.size());
-      std::vector<std::int32_t> sites(old_sites.size());
+      Tiles<Real> old_squares(shape, begin, end), squares(shape, begin, end);
+      Tiles<std::int32_t> old_sites(shape, begin, end), sites(shape, begin, end);
+      old_squares.read(squares_.values.data() + at, shape, begin, end);
+      old_sites.read(sites_.values.data() + at, shape, begin, end);
       for (std::size_t t = 0; t < sites.size(); t += size) {
         minimum(old_squares.data() + t, squares.data() + t, sites.data() + t);
-        for (std::size_t k = t; k < t + size; ++k) sites[k] = old_sites[t + static_cast<std::size_t>(sites[k]) * kLanes + (k - t) % kLanes];
+        for (std::size_t k = t; k < t + size; ++k) sites.data()[k] = old_sites.data()[t + static_cast<std::size_t>(sites.data()[k]) * kLanes + (k - t) % kLanes];
       }
       for_tile_rows(shape, begin, end, [&](std::size_t node, std::size_t lane, std::size_t count) {
         copy_lanes(squares.data() + lane, squares_.values.data() + at + node, count);

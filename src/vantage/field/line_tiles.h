@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include "vantage/base/parallel.h"
@@ -82,16 +83,26 @@ void for_tile_rows(const Shape& shape, std::size_t begin, std::size_t end, Body&
 
 [[nodiscard]] inline std::size_t tiles_in(std::size_t begin, std::size_t end) { return (end - begin + kLanes - 1) / kLanes; }
 
-/// Values of those columns; idle lanes do as their neighbour does.
+/// Values lane by lane, tile after tile, of columns [begin, end); not set at first.
 template <class Value>
-[[nodiscard]] std::vector<Value> read_tiles(const Value* block, const Shape& shape, std::size_t begin, std::size_t end) {
-  std::vector<Value> tiles(tiles_in(begin, end) * shape.length * kLanes);
-  for_tile_rows(shape, begin, end, [&](std::size_t node, std::size_t lane, std::size_t count) {
-    copy_lanes(block + node, tiles.data() + lane, count);
-    for (std::size_t idle = count; idle < kLanes; ++idle) tiles[lane + idle] = tiles[lane + count - 1];
-  });
-  return tiles;
-}
+class Tiles {
+ public:
+  Tiles(const Shape& shape, std::size_t begin, std::size_t end)
+      : size_(tiles_in(begin, end) * shape.length * kLanes), values_(std::make_unique_for_overwrite<Value[]>(size_)) {}
+  /// Those of a block; idle lanes do as their neighbour does.
+  void read(const Value* block, const Shape& shape, std::size_t begin, std::size_t end) {
+    for_tile_rows(shape, begin, end, [&](std::size_t node, std::size_t lane, std::size_t count) {
+      copy_lanes(block + node, data() + lane, count);
+      for (std::size_t idle = count; idle < kLanes; ++idle) values_[lane + idle] = values_[lane + count - 1];
+    });
+  }
+  [[nodiscard]] Value* data() { return values_.get(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  std::size_t size_;
+  std::unique_ptr<Value[]> values_;
+};
 
 /// Calls `line(bits, row)` for every row of `plane`, the z-th pair of axes 0 and 1, and `axis(a, block)` for every block of every later axis in turn;
 /// a plane goes through its second axis while it is in the cache.
