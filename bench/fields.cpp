@@ -17,6 +17,7 @@
 #include "vantage/base/random.h"
 #include "vantage/belief/belief.h"
 #include "vantage/field/distance.h"
+#include "vantage/field/narrow_band.h"
 #include "vantage/field/redistance.h"
 #include "vantage/field/stencil.h"
 #include "vantage/scan/fill.h"
@@ -125,6 +126,7 @@ struct Kernel {
 void kernels(const Settings& s, nlohmann::json& json) {
   const std::vector<Kernel> all{{"to a set, exact, no cap", 1 + 4 + 4 + 4 + 4, [](const Set& set) { (void)distance_to_set(set); }},
                                 {"signed, cap 32 h", 1 + 2 + 2 + 2 + 4 + 4, [](const Set& set) { (void)signed_distance(set, 32.0); }},
+                                {"narrow band, 4 h, sparse", 1, [](const Set& set) { (void)narrow_band(set, 4.0); }},
                                 {"nearest sites", 1 + 8 + 8 + 16, [](const Set& set) { (void)nearest_sites(set); }}};
   const std::vector<std::pair<std::string, std::function<Set(int)>>> sets{
       {"ball", [](int n) { return ball(n, 0.3 * n); }}, {"walls", walls}, {"1,000 points", points}};
