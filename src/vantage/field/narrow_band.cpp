@@ -83,7 +83,11 @@ class Band {
   /// within_[side][k] of every word: the bits of the side within k of it along the row.
   void spread(const Field<Dim, std::uint8_t>& inside) {
     const std::size_t reaches = static_cast<std::size_t>(far_) + 1;
-    for (auto& side : within_) side.resize(rows_ * words_ * reaches);
+    for (auto& side : within_) {
+      side.reserve(rows_ * words_ * reaches);
+      prefer_large_pages(side.data(), side.capacity() * sizeof(Word));
+      side.resize(rows_ * words_ * reaches);
+    }
     near_.resize(rows_ * words_);
     parallel_chunks(rows_, 64, [&](std::size_t begin, std::size_t end) {
       Bits in, out;
