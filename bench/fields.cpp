@@ -132,8 +132,8 @@ void kernels(const Settings& s, nlohmann::json& json) {
       {"ball", [](int n) { return ball(n, 0.3 * n); }}, {"walls", walls}, {"1,000 points", points}};
   for (const int threads : s.threads) {
     const double speed = bandwidth(threads);
-    fmt::print("\n{} thread(s); copying {:.1f} GB a CPU second\n\n| transform | set | n | CPU s | wall s | exponent | floor s | of the floor |\n", threads,
-               speed * 1e-9);
+    fmt::print("\n{} thread(s); copying {:.1f} GB a CPU second\n\n| transform | set | n | CPU s | wall s | exponent | floor s | of the floor |\n",
+               threads, speed * 1e-9);
     fmt::print("| --- | --- | --: | --: | --: | --: | --: | --: |\n");
     const ThreadLimit limit(threads);
     for (const Kernel& kernel : all)
@@ -145,7 +145,8 @@ void kernels(const Settings& s, nlohmann::json& json) {
           const double floor = kernel.bytes * static_cast<double>(set.values.size()) / speed;
           const std::string exponent = last > 0.0 ? fmt::format("{:.2f}", std::log2(t.cpu / last)) : "";
           last = t.cpu;
-          fmt::print("| {} | {} | {} | {:.4f} | {:.4f} | {} | {:.4f} | {:.1f} |\n", kernel.name, set_name, n, t.cpu, t.wall, exponent, floor, t.cpu / floor);
+          fmt::print("| {} | {} | {} | {:.4f} | {:.4f} | {} | {:.4f} | {:.1f} |\n", kernel.name, set_name, n, t.cpu, t.wall, exponent, floor,
+                     t.cpu / floor);
           json["kernels"].push_back(
               {{"kernel", kernel.name}, {"set", set_name}, {"n", n}, {"threads", threads}, {"cpu_s", t.cpu}, {"wall_s", t.wall}, {"floor_s", floor}});
         }
@@ -182,7 +183,8 @@ void peers(const Settings& s, nlohmann::json& json) {
     const ThreadLimit limit(1);
     const double plain = timed(s.repeat, [&] { (void)distance_to_set(set); }).cpu;
     const double both = timed(s.repeat, [&] { (void)signed_distance(set, 10.0 * n); }).cpu;
-    fmt::print("* n = {}: to a set {:.4f}, signed without cap {:.4f}, error {:.3f}\n", n, plain, both, worst_error(signed_distance(set, 10.0 * n), set, radius));
+    fmt::print("* n = {}: to a set {:.4f}, signed without cap {:.4f}, error {:.3f}\n", n, plain, both,
+               worst_error(signed_distance(set, 10.0 * n), set, radius));
     const auto put = [&](const std::string& name, double seconds, double ours, const std::string& error) {
       fmt::print("  {}: {:.3f}, {:.0f} times ours{}\n", name, seconds, seconds / ours, error);
       json["peers"].push_back({{"name", name}, {"n", n}, {"cpu_s", seconds}, {"ours_cpu_s", ours}});
@@ -217,22 +219,28 @@ void accuracy(const std::string& name, nlohmann::json& json, Truth&& truth) {
       worst = std::max(worst, std::abs(static_cast<double>(d[i]) - truth(p)));
       Vec<3> normal;
       for (int a = 0; a < 3; ++a) normal[a] = truth(p + 1e-5 * Vec<3>::Unit(a)) - truth(p - 1e-5 * Vec<3>::Unit(a));
-      const auto off = [&](const Field<3>& f) { return std::acos(std::clamp(gradient(f, at).normalized().dot(normal.normalized()), -1.0, 1.0)) * 180.0 / kPi; };
+      const auto off = [&](const Field<3>& f) {
+        return std::acos(std::clamp(gradient(f, at).normalized().dot(normal.normalized()), -1.0, 1.0)) * 180.0 / kPi;
+      };
       angle[0] += off(d);
       angle[1] += off(bits);
       count += 1.0;
     }
     fmt::print("| {} | {} | {:.4f} | {:.3f} | {:.2f} | {:.2f} |\n", name, n, worst, worst / phi.window.spacing, angle[0] / count, angle[1] / count);
-    json["accuracy"].push_back({{"shape", name}, {"n", n}, {"error", worst}, {"normal_deg", angle[0] / count}, {"normal_of_bits_deg", angle[1] / count}});
+    json["accuracy"].push_back(
+        {{"shape", name}, {"n", n}, {"error", worst}, {"normal_deg", angle[0] / count}, {"normal_of_bits_deg", angle[1] / count}});
   }
 }
 
 void accuracies(nlohmann::json& json) {
-  fmt::print("\nRedistancing within 4 steps of the surface, side 2, n steps\n\n| shape | n | largest error | in steps | normal off, mean deg | of a binary set |\n");
+  fmt::print(
+      "\nRedistancing within 4 steps of the surface, side 2, n steps\n\n| shape | n | largest error | in steps | normal off, mean deg | of a binary "
+      "set |\n");
   fmt::print("| --- | --: | --: | --: | --: | --: |\n");
   accuracy("sphere", json, [](const Vec<3>& p) { return 0.6 - p.norm(); });
   accuracy("plane", json, [](const Vec<3>& p) { return p.dot(Vec<3>(0.48, 0.6, 0.64)) - 0.1; });
-  accuracy("cone", json, [](const Vec<3>& p) { return 0.8 * p.head<2>().norm() - 0.6 * (p[2] + 0.4); });  // Sides only; the tip lies outside what counts.
+  accuracy("cone", json,
+           [](const Vec<3>& p) { return 0.8 * p.head<2>().norm() - 0.6 * (p[2] + 0.4); });  // Sides only; the tip lies outside what counts.
 }
 
 /// Stages of a step before the planner, walking through a scene; the last line: what the belief keeps.
@@ -245,8 +253,10 @@ void steps(const Settings& s, nlohmann::json& json) {
   SimulatedLidar<3> lidar(scene.mesh, LidarOptions{});
   Belief<3> belief(window, scene.eta);
   Vec<3> place = scene.start;
-  fmt::print("\n`{}`, h = {} m, {} x {} x {} nodes; CPU s\n\n| scan | surface | visibility | belief | kept MB | view MB |\n| --: | --: | --: | --: | --: | --: |\n",
-             s.scene, s.voxel, window.extent[0], window.extent[1], window.extent[2]);
+  fmt::print(
+      "\n`{}`, h = {} m, {} x {} x {} nodes; CPU s\n\n| scan | surface | visibility | belief | kept MB | view MB |\n| --: | --: | --: | --: | --: | "
+      "--: |\n",
+      s.scene, s.voxel, window.extent[0], window.extent[1], window.extent[2]);
   for (int k = 0; k < s.scans; ++k) {
     const Scan<3> scan = lidar.scan(place, k);
     Box<3> reach;
@@ -254,12 +264,13 @@ void steps(const Settings& s, nlohmann::json& json) {
     const Grid<3> near = intersection(window_over(reach.grown(scan.pattern.max_range), window.spacing), window);
     Field<3> phi;
     const Seconds insert = timed(1, [&] { (void)surface.insert(hit_points(scan), SurfaceSensor<3>{scan.origin, scan.pattern.step}); });
-    const Seconds see = timed(
-        1, [&] { phi = visibility<3>(surface.patches(near.bounds().grown(2.0 * near.spacing + scene.eta)), scan, near, scene.eta); });
+    const Seconds see =
+        timed(1, [&] { phi = visibility<3>(surface.patches(near.bounds().grown(2.0 * near.spacing + scene.eta)), scan, near, scene.eta); });
     const Seconds unite = timed(1, [&] { belief.unite(phi, fill_between_rays(scan, 0.5 * window.spacing)); });
     const double kept = static_cast<double>(belief.kept_bytes()) * 1e-6, view = 9e-6 * static_cast<double>(window.size());
     fmt::print("| {} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {:.0f} |\n", k, insert.cpu, see.cpu, unite.cpu, kept, view);
-    json["steps"].push_back({{"surface_cpu_s", insert.cpu}, {"visibility_cpu_s", see.cpu}, {"belief_cpu_s", unite.cpu}, {"kept_mb", kept}, {"view_mb", view}});
+    json["steps"].push_back(
+        {{"surface_cpu_s", insert.cpu}, {"visibility_cpu_s", see.cpu}, {"belief_cpu_s", unite.cpu}, {"kept_mb", kept}, {"view_mb", view}});
     // On to the farthest clear place within 60 m at the scanner's height.
     double farthest = 0.0;
     const Vec<3> from = place;

@@ -62,7 +62,11 @@ std::vector<Index<Dim>> steps_within(double reach) {
 template <int Dim>
   requires SpatialDim<Dim>
 Belief<Dim>::Belief(const Grid<Dim>& window, double eta)
-    : eta_(eta), obstacle_distance_(std::max(eta, 0.5 * std::sqrt(static_cast<double>(Dim)) * window.spacing)), cap_(kCapCells * window.spacing), seen_(window), wall_distance_(window, static_cast<float>(cap_)) {
+    : eta_(eta),
+      obstacle_distance_(std::max(eta, 0.5 * std::sqrt(static_cast<double>(Dim)) * window.spacing)),
+      cap_(kCapCells * window.spacing),
+      seen_(window),
+      wall_distance_(window, static_cast<float>(cap_)) {
   require_memory(static_cast<double>(window.size()), 24.0, "the lattice");
   state_ = Field<Dim, NodeState>(window, NodeState::unseen);
   psi_ = Field<Dim>(window, static_cast<float>(-cap_));

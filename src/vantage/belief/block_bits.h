@@ -24,7 +24,7 @@ class BlockBits {
   void read_row(const Index<Dim>& start, std::span<std::uint8_t> out) const;
 
   [[nodiscard]] const Grid<Dim>& window() const { return window_; }
-  [[nodiscard]] std::size_t bytes() const;         ///< Memory held.
+  [[nodiscard]] std::size_t bytes() const;  ///< Memory held.
   [[nodiscard]] std::size_t mixed_blocks() const { return mixed_.size() - free_.size(); }
 
  private:

@@ -53,7 +53,8 @@ class SiteTransform {
       old_sites.read(sites_.values.data() + at, shape, begin, end);
       for (std::size_t t = 0; t < sites.size(); t += size) {
         minimum(old_squares.data() + t, squares.data() + t, sites.data() + t);
-        for (std::size_t k = t; k < t + size; ++k) sites.data()[k] = old_sites.data()[t + static_cast<std::size_t>(sites.data()[k]) * kLanes + (k - t) % kLanes];
+        for (std::size_t k = t; k < t + size; ++k)
+          sites.data()[k] = old_sites.data()[t + static_cast<std::size_t>(sites.data()[k]) * kLanes + (k - t) % kLanes];
       }
       for_tile_rows(shape, begin, end, [&](std::size_t node, std::size_t lane, std::size_t count) {
         copy_lanes(squares.data() + lane, squares_.values.data() + at + node, count);

@@ -35,8 +35,8 @@ class LineMinimum {
   std::vector<Real> squares_;  // (j - i)^2 from j - i = -length on, as often as a vector has lanes.
 };
 
-/// Both sides at once: value > 0 is a node's squared distance to the nearest one that is < 0 and the other way round. Each becomes the least over j of
-/// value[j] (0 across the boundary) + (i - j)^2. No value is above kMaxLimit^2; one that stands for "at least" stays so. Groups of rows that hold
+/// Both sides at once: value > 0 is a node's squared distance to the nearest one that is < 0 and the other way round. Each becomes the least over j
+/// of value[j] (0 across the boundary) + (i - j)^2. No value is above kMaxLimit^2; one that stands for "at least" stays so. Groups of rows that hold
 /// nothing near are skipped.
 class SignedLineMinimum {
  public:

@@ -18,7 +18,7 @@ inline constexpr std::size_t kTiles = 4;  ///< Tiles read and written together, 
 using Bits = std::vector<std::uint64_t>;
 
 /// One bit a node of a row; bits past the end are 0.
-inline void pack(const std::uint8_t* row, std::size_t length, Bits& bits) {
+inline void pack_row(const std::uint8_t* row, std::size_t length, Bits& bits) {
   bits.assign((length + 63) / 64, 0);
   for (std::size_t i = 0; i < length; i += 8) {
     std::uint64_t bytes = 0;
@@ -31,7 +31,7 @@ inline void pack(const std::uint8_t* row, std::size_t length, Bits& bits) {
 }
 
 /// First place at or after `from` whose bit is `value`, or `length`.
-[[nodiscard]] inline std::size_t find(const Bits& bits, std::size_t length, std::size_t from, bool value) {
+[[nodiscard]] inline std::size_t find_bit(const Bits& bits, std::size_t length, std::size_t from, bool value) {
   const std::uint64_t flip = value ? 0 : ~std::uint64_t{0};
   for (std::size_t word = from / 64; word < bits.size(); ++word) {
     std::uint64_t rest = bits[word] ^ flip;
@@ -46,7 +46,7 @@ template <class Run>
 void for_runs(const Bits& bits, std::size_t length, Run&& run) {
   for (std::size_t from = 0; from < length;) {
     const bool set = (bits[from / 64] >> (from % 64) & 1U) != 0;
-    const std::size_t end = find(bits, length, from, !set);
+    const std::size_t end = find_bit(bits, length, from, !set);
     run(from, end, set);
     from = end;
   }
@@ -114,7 +114,7 @@ void for_axes(const Grid<Dim>& grid, const std::uint8_t* set, LineOf&& line, Axi
     parallel_chunks(height, 64, [&](std::size_t begin, std::size_t end) {
       Bits bits;
       for (std::size_t row = z * height + begin; row < z * height + end; ++row) {
-        pack(set + row * width, width, bits);
+        pack_row(set + row * width, width, bits);
         line(bits, row);
       }
     });

@@ -92,13 +92,14 @@ class Band {
     parallel_chunks(rows_, 64, [&](std::size_t begin, std::size_t end) {
       Bits in, out;
       for (std::size_t row = begin; row < end; ++row) {
-        pack(inside.values.data() + row * width_, width_, in);
+        pack_row(inside.values.data() + row * width_, width_, in);
         out = in;
         for (Word& word : out) word = ~word;
         if (width_ % 64 != 0) out.back() &= (Word{1} << (width_ % 64)) - 1;
         for (std::size_t w = 0; w < words_; ++w) {
           const std::size_t place = row * words_ + w;
-          const Word any_in = spread_word(in, w, within_[0].data() + place * reaches), any_out = spread_word(out, w, within_[1].data() + place * reaches);
+          const Word any_in = spread_word(in, w, within_[0].data() + place * reaches),
+                     any_out = spread_word(out, w, within_[1].data() + place * reaches);
           near_[place] = static_cast<std::uint8_t>((any_in != 0 ? kIn : 0) | (any_out != 0 ? kOut : 0));
         }
       }
@@ -120,9 +121,11 @@ class Band {
       const std::size_t stride = window_.stride(a) / width_ * words_, length = static_cast<std::size_t>(window_.extent[a]);
       parallel_for(rows_, 64, [&](std::size_t row) {
         const auto along = static_cast<std::ptrdiff_t>(row * words_ / stride % length);
-        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(-along, -far_); k <= std::min<std::ptrdiff_t>(far_, static_cast<std::ptrdiff_t>(length) - 1 - along); ++k)
+        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(-along, -far_);
+             k <= std::min<std::ptrdiff_t>(far_, static_cast<std::ptrdiff_t>(length) - 1 - along); ++k)
           for (std::size_t w = 0; w < words_; ++w)
-            active_[row * words_ + w] |= old[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(row * words_ + w) + k * static_cast<std::ptrdiff_t>(stride))];
+            active_[row * words_ + w] |=
+                old[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(row * words_ + w) + k * static_cast<std::ptrdiff_t>(stride))];
       });
     }
   }
@@ -137,7 +140,8 @@ class Band {
       if (!window_.inside(here + n.step)) continue;
       const auto place = (static_cast<std::size_t>(static_cast<std::ptrdiff_t>(row) + n.rows) * words_ + w) * reaches;
       for (int k = 0; n.square + k * k <= last_; ++k)
-        for (std::size_t side = 0; side < 2; ++side) met[side][static_cast<std::size_t>(n.square + k * k)] |= within_[side][place + static_cast<std::size_t>(k)];
+        for (std::size_t side = 0; side < 2; ++side)
+          met[side][static_cast<std::size_t>(n.square + k * k)] |= within_[side][place + static_cast<std::size_t>(k)];
     }
     const std::size_t own = (row * words_ + w) * reaches;
     for (std::size_t side = 0; side < 2; ++side) {
@@ -168,7 +172,8 @@ template <int Dim>
   requires SpatialDim<Dim>
 NarrowBand narrow_band(const Field<Dim, std::uint8_t>& inside, double reach) {
   const double h = inside.window.spacing;
-  require(reach > 0.0 && reach <= (kMaxReach - 1) * h, fmt::format("narrow_band: reach = {} m: must be > 0 and <= {} steps of {} m", reach, kMaxReach - 1, h));
+  require(reach > 0.0 && reach <= (kMaxReach - 1) * h,
+          fmt::format("narrow_band: reach = {} m: must be > 0 and <= {} steps of {} m", reach, kMaxReach - 1, h));
   return inside.values.empty() ? NarrowBand{} : Band<Dim>(inside, reach).collect();
 }
 

@@ -52,7 +52,8 @@ class Towards {
   }
   void write(const Real* from, float* to, std::size_t count) const {
     const auto known = static_cast<Real>(roots_.size());
-    for (std::size_t k = 0; k < count; ++k) to[k] = from[k] < known ? roots_[static_cast<std::size_t>(from[k])] : distance(static_cast<double>(from[k]));
+    for (std::size_t k = 0; k < count; ++k)
+      to[k] = from[k] < known ? roots_[static_cast<std::size_t>(from[k])] : distance(static_cast<double>(from[k]));
   }
 
  private:
@@ -165,8 +166,8 @@ Field<Dim> tiled_signed_distance(const Field<Dim, std::uint8_t>& inside, double 
   return out;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                     \
-  template bool exact_in_float<D>(const Grid<D>&);                                 \
+#define VANTAGE_INSTANTIATE(D)                                                \
+  template bool exact_in_float<D>(const Grid<D>&);                            \
   template Field<D> tiled_distance<D>(const Field<D, std::uint8_t>&, double); \
   template Field<D> tiled_signed_distance<D>(const Field<D, std::uint8_t>&, double);
 VANTAGE_INSTANTIATE(2)

@@ -9,8 +9,8 @@ template <int Dim>
   requires SpatialDim<Dim>
 [[nodiscard]] bool exact_in_float(const Grid<Dim>& window);
 
-/// distance_to_set (distance.h) for windows that are exact_in_float. Axis by axis, on tiles of lines side by side (line_minimum.h). Cost: the nodes, but
-/// for a small logarithm, whatever the set.
+/// distance_to_set (distance.h) for windows that are exact_in_float. Axis by axis, on tiles of lines side by side (line_minimum.h). Cost: the nodes,
+/// but for a small logarithm, whatever the set.
 template <int Dim>
   requires SpatialDim<Dim>
 [[nodiscard]] Field<Dim> tiled_distance(const Field<Dim, std::uint8_t>& set, double cap);
