@@ -32,17 +32,45 @@ void for_common(const Grid<Dim>& part, const Grid<Dim>& a, const Grid<Dim>& b, F
   });
 }
 
+/// The smallest window that holds both; an empty one holds nothing.
+template <int Dim>
+Grid<Dim> hull(const Grid<Dim>& a, const Grid<Dim>& b) {
+  if (a.size() == 0 || b.size() == 0) return a.size() == 0 ? b : a;
+  Grid<Dim> out = a;
+  out.first = a.first.cwiseMin(b.first);
+  out.extent = (a.first + a.extent).cwiseMax(b.first + b.extent) - out.first;
+  return out;
+}
+
+/// Steps from the node nearest to a place to all nodes that may lie within `reach` of the place, both in cells.
+template <int Dim>
+std::vector<Index<Dim>> steps_within(double reach) {
+  const auto side = static_cast<std::int32_t>(std::ceil(reach + 0.5));
+  Grid<Dim> cube;
+  cube.extent.setConstant(2 * side + 1);
+  std::vector<Index<Dim>> steps;
+  for (std::size_t i = 0; i < cube.size(); ++i) {
+    const Index<Dim> step = cube.local(i).array() - side;
+    const Vec<Dim> gap = (step.template cast<double>().cwiseAbs().array() - 0.5 - 1e-6).cwiseMax(0.0);
+    if (gap.norm() <= reach) steps.push_back(step);
+  }
+  return steps;
+}
+
 }  // namespace
 
 template <int Dim>
   requires SpatialDim<Dim>
 Belief<Dim>::Belief(const Grid<Dim>& window, double eta)
-    : eta_(eta), obstacle_distance_(std::max(eta, 0.5 * std::sqrt(static_cast<double>(Dim)) * window.spacing)), cap_(kCapCells * window.spacing) {
-  require_memory(static_cast<double>(window.size()), 40.0, "the lattice");
-  seen_ = Field<Dim, std::uint8_t>(window, 0);
+    : eta_(eta),
+      obstacle_distance_(std::max(eta, 0.5 * std::sqrt(static_cast<double>(Dim)) * window.spacing)),
+      cap_(kCapCells * window.spacing),
+      seen_(window),
+      wall_distance_(window, static_cast<float>(cap_)) {
+  require_memory(static_cast<double>(window.size()), 24.0, "the lattice");
   state_ = Field<Dim, NodeState>(window, NodeState::unseen);
   psi_ = Field<Dim>(window, static_cast<float>(-cap_));
-  known_distance_ = wall_distance_ = Field<Dim>(window, static_cast<float>(cap_));
+  known_distance_ = Field<Dim>(window, static_cast<float>(cap_));
 }
 
 template <int Dim>
@@ -50,45 +78,76 @@ template <int Dim>
 Grid<Dim> Belief<Dim>::add_walls(std::span<const Vec<Dim>> walls) {
   const Grid<Dim>& window = state_.window;
   const double reach = std::sqrt(static_cast<double>(Dim)) * window.spacing;
-  constexpr int kNodes = 5;  // sqrt(3) cells each way, from the nearest node.
-  int neighbours = 1;
-  for (int a = 0; a < Dim; ++a) neighbours *= kNodes;
-  Box<Dim> touched;
+  const std::vector<Index<Dim>> steps = steps_within<Dim>(reach / window.spacing);
+  Index<Dim> low = window.extent, high = Index<Dim>::Constant(-1);
   for (const Vec<Dim>& wall : walls) {
     const Index<Dim> center = window.nearest(wall);
     // A node this near has heard of this wall already: samples lie dense.
-    if (window.inside(center) && static_cast<double>(wall_distance_.at(center)) < 0.1 * window.spacing) continue;
-    for (int code = 0; code < neighbours; ++code) {
-      Index<Dim> node = center;
-      for (int a = 0, rest = code; a < Dim; ++a, rest /= kNodes) node[a] += rest % kNodes - kNodes / 2;
+    if (window.inside(center) && static_cast<double>(wall_distance_(center)) < 0.1 * window.spacing) continue;
+    const Vec<Dim> rest = window.position(center) - wall;
+    for (const Index<Dim>& step : steps) {
+      if ((rest + window.spacing * step.template cast<double>()).squaredNorm() > reach * reach * (1.0 + 1e-6)) continue;
+      const Index<Dim> node = center + step;
       if (!window.inside(node)) continue;
       const auto distance = static_cast<float>((window.position(node) - wall).norm());
-      if (distance > static_cast<float>(reach) || distance >= wall_distance_.at(node)) continue;
+      if (distance > static_cast<float>(reach) || distance >= wall_distance_(node)) continue;
       wall_distance_.at(node) = distance;
-      touched.extend(window.position(node));
+      low = low.cwiseMin(node);
+      high = high.cwiseMax(node);
     }
   }
-  return touched.empty() ? Grid<Dim>{window.spacing, window.first, Index<Dim>::Zero()} : intersection(window_over(touched, window.spacing), window);
+  Grid<Dim> touched{window.spacing, window.first + low, high - low};
+  touched.extent.array() += 1;
+  return (high.array() < 0).any() ? Grid<Dim>{window.spacing, window.first, Index<Dim>::Zero()} : touched;
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
 void Belief<Dim>::unite(const Field<Dim>& phi, std::span<const Vec<Dim>> walls) {
-  const auto limit = static_cast<float>(cap_), tolerance = static_cast<float>(eta_), obstacle = static_cast<float>(obstacle_distance_);
-  const auto judge = [&](std::size_t i) {
-    known_distance_[i] = std::min(known_distance_[i], wall_distance_[i]);
-    state_[i] = known_distance_[i] <= obstacle ? NodeState::obstacle : seen_[i] != 0 ? NodeState::seen : NodeState::unseen;
-  };
+  const auto limit = static_cast<float>(cap_), tolerance = static_cast<float>(eta_);
+  seen_.add(phi);
   const Grid<Dim> walled = add_walls(walls), common = intersection(phi.window, state_.window);
-  for_common(walled, walled, state_.window, [&](std::size_t, std::size_t i) { judge(i); });
-  for_common(common, phi.window, state_.window, [&](std::size_t from, std::size_t to) {
-    const float value = phi[from];
-    if (value > 0.0F) seen_[to] = 1;
-    known_distance_[to] = std::min(std::abs(value) + tolerance, limit);
-    judge(to);
+  for_common(common, phi.window, state_.window,
+             [&](std::size_t from, std::size_t to) { known_distance_[to] = std::min(std::abs(phi[from]) + tolerance, limit); });
+  Grid<Dim> changed = judge(common);
+  if (!(intersection(walled, common) == walled)) changed = hull(changed, judge(walled));
+  redistance_around(changed);
+}
+
+/// Settles the known distance and the state of the nodes of `part`; the smallest window of those seen before or now, but not both.
+template <int Dim>
+  requires SpatialDim<Dim>
+Grid<Dim> Belief<Dim>::judge(const Grid<Dim>& part) {
+  const Grid<Dim>& window = state_.window;
+  const auto length = static_cast<std::size_t>(part.extent[0]), rows = length > 0 ? part.size() / length : 0;
+  const auto obstacle = static_cast<float>(obstacle_distance_);
+  std::vector<std::array<std::size_t, 2>> changed(rows, {length, 0});  // First and last place of a row.
+  parallel_chunks(rows, 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint8_t> seen(length);
+    for (std::size_t row = begin; row < end; ++row) {
+      Index<Dim> node = part.local(row * length) + part.first - window.first;
+      const std::size_t first = window.linear(node);
+      seen_.read_row(node, seen);
+      for (std::size_t k = 0; k < length;) {
+        const float* wall = wall_distance_.run(node);
+        const std::size_t until = std::min(length, k + static_cast<std::size_t>(Walls::kSide - node[0] % Walls::kSide));
+        node[0] += static_cast<std::int32_t>(until - k);
+        for (; k < until; ++k) {
+          float& known = known_distance_[first + k];
+          if (wall != nullptr) known = std::min(known, *wall++);
+          const NodeState now = known <= obstacle ? NodeState::obstacle : static_cast<NodeState>(seen[k]);
+          NodeState& state = state_[first + k];
+          if ((now == NodeState::seen) != (state == NodeState::seen)) changed[row] = {std::min(changed[row][0], k), k};
+          state = now;
+        }
+      }
+    }
   });
-  redistance_around(common);
-  if (walled.size() > 0 && !(intersection(walled, common) == walled)) redistance_around(walled);
+  Grid<Dim> out{window.spacing, part.first, Index<Dim>::Zero()};
+  for (std::size_t row = 0; row < rows; ++row)
+    for (const std::size_t k : changed[row])
+      if (changed[row][0] < length) out = hull(out, Grid<Dim>{window.spacing, part.first + part.local(row * length + k), Index<Dim>::Ones()});
+  return out;
 }
 
 template <int Dim>

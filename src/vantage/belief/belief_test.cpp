@@ -55,11 +55,11 @@ TYPED_TEST(BeliefTest, OccludedSetOnlyShrinksAndTheOrderOfTheUnionDoesNotMatter)
   Belief<Dim> one(domain<Dim>(), kEta), other(domain<Dim>(), kEta);
   const auto a = ball_view<Dim>(domain<Dim>(), Vec<Dim>::Constant(2.0), 2.5), b = ball_view<Dim>(domain<Dim>(), Vec<Dim>::Constant(4.0), 2.0);
   one.unite(a);
-  const auto before = one.ever_seen().values;
+  const BlockBits<Dim> before = one.ever_seen();
   one.unite(b);
   other.unite(b);
   other.unite(a);
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_GE(one.ever_seen()[i], before[i]);
+  for (std::size_t i = 0; i < before.window().size(); ++i) EXPECT_GE(one.ever_seen()[i], before[i]);
   EXPECT_EQ(one.view().state.values, other.view().state.values);
   EXPECT_EQ(one.view().psi.values, other.view().psi.values);
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "vantage/field/grid.h"
+#include "vantage/field/pages.h"
 
 namespace vantage {
 
@@ -14,7 +15,11 @@ struct Field {
   std::vector<Value> values;
 
   Field() = default;
-  explicit Field(const Grid<Dim>& w, Value value = Value()) : window(w), values(w.size(), value) {}
+  explicit Field(const Grid<Dim>& w, Value value = Value()) : window(w) {
+    values.reserve(w.size());
+    prefer_large_pages(values.data(), w.size() * sizeof(Value));
+    values.resize(w.size(), value);
+  }
   [[nodiscard]] Value& operator[](std::size_t i) { return values[i]; }
   [[nodiscard]] const Value& operator[](std::size_t i) const { return values[i]; }
   [[nodiscard]] Value& at(const Index<Dim>& local) { return values[window.linear(local)]; }

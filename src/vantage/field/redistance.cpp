@@ -6,6 +6,8 @@
 #include "vantage/base/parallel.h"
 #include "vantage/field/distance.h"
 #include "vantage/field/fast_marching.h"
+#include "vantage/field/line_minimum.h"
+#include "vantage/field/tiled_distance.h"
 
 namespace vantage {
 namespace {
@@ -38,9 +40,10 @@ double interface_distance(const Field<Dim>& phi, std::size_t node) {
 template <int Dim>
   requires SpatialDim<Dim>
 Field<Dim> signed_distance(const Field<Dim, std::uint8_t>& inside, double cap) {
+  if (signed_reach(inside.window.spacing, cap) <= kMaxLimit) return tiled_signed_distance(inside, cap);
+  const double half = 0.5 * inside.window.spacing;
   Field<Dim, std::uint8_t> outside(inside.window);
   for (std::size_t i = 0; i < inside.values.size(); ++i) outside[i] = inside[i] == 0;
-  const double half = 0.5 * inside.window.spacing;
   Field<Dim> psi = distance_to_set(outside, cap + half);
   const Field<Dim> depth = distance_to_set(inside, cap + half);
   parallel_for(psi.values.size(), 1 << 14,

@@ -49,6 +49,54 @@ TYPED_TEST(Redistance, RecoversTheBallsDistanceAndConverges) {
   EXPECT_LT(fine, 0.75 * coarse);  // First order up to the logarithm of the front's start.
 }
 
+/// Closed forms with |gradient| = 1; the cone (a wedge in 2D) has its tip at (0, .., -0.4).
+template <int Dim>
+double plane_distance(const Vec<Dim>& p) {
+  Vec<Dim> normal = Vec<Dim>::Constant(0.48);
+  normal[0] = 0.6;
+  return p.dot(normal.normalized()) - 0.1;
+}
+
+template <int Dim>
+double cone_distance(const Vec<Dim>& p) {
+  return 0.8 * p.template head<Dim - 1>().norm() - 0.6 * (p[Dim - 1] + 0.4);
+}
+
+/// Largest error within four steps of the surface, and mean angle of the normal off the truth's [rad], away from the tip and the sides.
+template <int Dim, class Truth>
+std::pair<double, double> band_errors(double spacing, Truth&& truth) {
+  Field<Dim> phi(centred_window<Dim>(1.0, spacing));
+  for (std::size_t i = 0; i < phi.values.size(); ++i) {
+    const Vec<Dim> p = phi.window.position(i);
+    phi[i] = static_cast<float>(truth(p) * (1.5 + p[0]) * (2.0 + p[Dim - 1]));
+  }
+  const Field<Dim> d = redistance(phi);
+  double worst = 0.0, angle = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < d.values.size(); ++i) {
+    const Vec<Dim> p = d.window.position(i);
+    if (std::abs(truth(p)) > 4.0 * spacing || p.cwiseAbs().maxCoeff() > 0.8 || p.template head<Dim - 1>().norm() < 0.3) continue;
+    worst = std::max(worst, std::abs(static_cast<double>(d[i]) - truth(p)));
+    Vec<Dim> normal;
+    for (int a = 0; a < Dim; ++a) normal[a] = (truth(p + 1e-5 * Vec<Dim>::Unit(a)) - truth(p - 1e-5 * Vec<Dim>::Unit(a))) / 2e-5;
+    angle += std::acos(std::clamp(gradient(d, d.window.local(i)).normalized().dot(normal.normalized()), -1.0, 1.0));
+    count += 1.0;
+  }
+  return {worst, angle / count};
+}
+
+TYPED_TEST(Redistance, RecoversPlanesAndConesAtFirstOrder) {
+  constexpr int Dim = TypeParam::value;
+  const auto check = [](auto&& truth) {
+    const auto [coarse, coarse_angle] = band_errors<Dim>(0.05, truth);
+    const auto [fine, fine_angle] = band_errors<Dim>(0.025, truth);
+    EXPECT_LT(coarse, 0.4 * 0.05);
+    EXPECT_LT(fine, 0.6 * coarse);
+    EXPECT_LT(std::max(coarse_angle, fine_angle), 2.0 * kPi / 180.0);
+  };
+  check(plane_distance<Dim>);
+  check(cone_distance<Dim>);
+}
+
 TYPED_TEST(Redistance, KeepsTheSet) {
   constexpr int Dim = TypeParam::value;
   const Field<Dim> phi = distorted_ball<Dim>(0.6, 0.05), d = redistance(phi);
