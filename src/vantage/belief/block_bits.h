@@ -29,7 +29,7 @@ class BlockBits {
 
  private:
   static constexpr std::int32_t kSide = 8;
-  static constexpr std::size_t kRows = Dim == 2 ? 8 : 64;  // Of a block; a byte each.
+  static constexpr std::size_t kRows = std::size_t{1} << (3 * (Dim - 1));  // Of a block; a byte each.
   using Block = std::array<std::uint8_t, kRows>;
   static constexpr std::uint32_t kNone = 0, kAll = 1, kFirst = 2;  // What a slot may say; kFirst + i: mixed_[i].
 

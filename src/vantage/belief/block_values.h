@@ -39,7 +39,7 @@ class BlockValues {
   [[nodiscard]] std::size_t bytes() const { return slot_.capacity() * sizeof(std::uint32_t) + values_.capacity() * sizeof(float); }
 
  private:
-  static constexpr std::size_t kNodes = Dim == 2 ? 16 : 64;
+  static constexpr std::size_t kNodes = std::size_t{1} << (2 * Dim);
 
   static constexpr auto kUnsignedSide = static_cast<std::uint32_t>(kSide);  // Plain shifts.
 
