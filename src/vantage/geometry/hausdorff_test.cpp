@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/base/random.h"
+#include "vantage/geometry/disc_cover.h"
 
 namespace vantage {
 namespace {
@@ -111,6 +112,34 @@ TYPED_TEST(Covering, DecidesOnBothSidesOfTheTruth) {
       EXPECT_GE(high, truth * (1.0 - 1e-9));
       EXPECT_LE(high, (truth + error) * (1.0 + 1e-5));
     }
+}
+
+TEST(Discs, FindAGapExactlyWhereThereIsOne) {
+  Random random(5);
+  int gaps = 0, covered = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const auto region = random_region<2>(random);
+    Feet<2> feet;
+    if (trial % 4 == 0) {  // A lattice: many circles cross in one place.
+      for (int i = -5; i <= 5; ++i)
+        for (int j = -5; j <= 5; ++j)
+          if (feet.size() < 64) add<2>(feet, Place<2>(0.35 * i, 0.35 * j), 0.0);
+    } else {
+      for (int i = 0; i < 4 + trial % 60; ++i) add<2>(feet, anywhere<2>(random, 2.0), random.uniform(0.0, 0.1));
+    }
+    const auto [truth, error] = sampled_radius<2>(region, feet, 60);
+    for (const double limit : {0.7 * truth, 0.99 * truth, truth + error, 1.4 * (truth + error)}) {
+      const auto gap = find_uncovered(region, feet, limit * (1.0 + 1e-5));
+      EXPECT_EQ(gap.has_value(), limit < truth) << trial;
+      if (gap) {
+        EXPECT_GE(nearest<2>(feet, *gap), limit * (1.0 - 1e-5));
+        EXPECT_LE((region.closest(*gap) - *gap).norm(), 1e-9);
+      }
+      ++(gap ? gaps : covered);
+    }
+  }
+  EXPECT_GT(gaps, 500);
+  EXPECT_GT(covered, 500);
 }
 
 TYPED_TEST(Covering, ClosedForms) {
