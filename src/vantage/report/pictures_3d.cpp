@@ -98,11 +98,14 @@ Figure points_figure(const ReportInput<3>& input, const Camera& camera) {
     raster.point(p, radius, colour_of(ColourMap::viridis, kLowColour + (kHighColour - kLowColour) * t));
   });
   Figure figure{"points", "Everything the scanner measured", {}, {}, {}};
-  const std::size_t stride = point_stride(input);
-  const std::string share = stride > 1 ? fmt::format(" One in {} is drawn.", stride) : std::string();
-  figure.caption = fmt::format("{} points of {}, coloured by height, with the vantage points and the path through them.{}",
-                               number(static_cast<std::int64_t>(point_count(input))),
-                               counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
+  std::size_t measured = 0;
+  for (const auto& step : input.steps) measured += static_cast<std::size_t>(step.points);
+  measured = std::max(measured, point_count(input));  // Of which the input may hold a share.
+  const std::size_t stride = measured / std::max<std::size_t>(1, point_count(input) / point_stride(input));
+  const std::string share = stride > 1 ? fmt::format(" About one in {} is drawn.", stride) : std::string();
+  figure.caption =
+      fmt::format("{} points of {}, coloured by height, with the vantage points and the path through them.{}",
+                  number(static_cast<std::int64_t>(measured)), counted(static_cast<std::int64_t>(input.steps.size()), "scan", "scans"), share);
   figure.legend = legend_bar(css_gradient(ColourMap::viridis, kLowColour, kHighColour), height_text(low), height_text(high)) + journey_legend();
   figure.panels.push_back({resolved(raster, {0.8}),
                            journey_overlay(input, camera),

@@ -51,7 +51,7 @@ KeyFigure error_figure(const SurfaceStatistics& surface) {
 template <int Dim>
 std::vector<KeyFigure> key_figures(const ReportInput<Dim>& input) {
   std::int64_t points = 0;
-  for (const auto& scan : input.scan_points) points += static_cast<std::int64_t>(scan.size());
+  for (const auto& step : input.steps) points += step.points;  // The points of the pictures may be a share of them.
   const double seen = input.steps.empty() ? 0.0 : input.steps.back().seen_volume;
   return {{"Scans", number(static_cast<std::int64_t>(input.steps.size())), fmt::format("{} of path through them", quantity(way(input), "m"))},
           {"Points", number(points), input.steps.empty() ? "" : number(points / static_cast<std::int64_t>(input.steps.size())) + " a scan"},
