@@ -18,9 +18,9 @@ struct FitRules {
   double limit = 0.0;           ///< Largest error of a fit between patches and sites: eta less the slack of the snapping [m].
   std::int64_t min_points = 0;  ///< Fewest points of a fitted cell.
   bool paper = false;           ///< Planes only, clusters of at least min_points, best fit kept at the depth limit.
-  const SensorSpacing<Dim>* spacing =
-      nullptr;         ///< If given, places of a patch may be farther than the limit from the sites: as far as these are apart.
-  bool sharp = false;  ///< Bounds of errors are at most 10 % above the truth; else any within the limit.
+  bool sharp = false;           ///< Bounds of errors are at most 10 % above the truth; else any within the limit.
+  /// If given, places of a patch may be farther than the limit from the sites: as far as these are apart.
+  const SensorSpacing<Dim>* spacing = nullptr;
 };
 
 /// Points with an extent below this share of the limit have none in that axis.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTight = 1.1;
 
-/// Calls visit(leaf) for the leaves whose cells come within `reach` [m] of a box, from the cube's low corner.
+/// Calls visit(leaf) for the leaves whose cells meet a box, from the cube's low corner [m].
 template <int Dim, class Visit>
 void each_leaf_near(const Node<Dim>& node, const Cell<Dim>& cell, const Box<Dim>& box, double step, const Visit& visit) {
   if ((!node.inner && !node.leaf) || cell.box(step).intersection(box).empty()) return;
