@@ -25,9 +25,10 @@ template <int Dim>
 struct HandMade {
   Field<Dim, NodeState> state;
   Field<Dim> psi, known_distance;
+  ShadowBoundary<Dim> boundary;
 
   template <class StateAt>
-  HandMade(const Box<Dim>& box, StateAt&& state_at, double h = kH) : state(window_over(box, h)) {
+  HandMade(const Box<Dim>& box, StateAt&& state_at, double h = kH) : state(window_over(box, h)), boundary(state.window) {
     Field<Dim, std::uint8_t> seen(state.window), obstacle(state.window);
     for (std::size_t i = 0; i < state.values.size(); ++i) {
       state[i] = state_at(state.window.position(i));
@@ -36,8 +37,10 @@ struct HandMade {
     }
     psi = signed_distance(seen, 8.0);
     known_distance = distance_to_set(obstacle, 8.0);
+    for (std::size_t i = 0; i < state.values.size(); ++i) boundary.touch(state.window.local(i));
+    boundary.renew(state, psi, state.window);
   }
-  [[nodiscard]] BeliefView<Dim> view() const { return {state, psi, known_distance}; }
+  [[nodiscard]] BeliefView<Dim> view() const { return {state, psi, known_distance, boundary}; }
 };
 
 template <int Dim>
