@@ -17,9 +17,9 @@
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
 #include "vantage/belief/belief.h"
-#include "vantage/field/fast_marching.h"
 #include "vantage/planner/candidates.h"
 #include "vantage/planner/planner.h"
+#include "vantage/planner/safe_path.h"
 #include "vantage/scan/fill.h"
 #include "vantage/surface/surface.h"
 #include "vantage/visibility/visibility.h"
@@ -95,11 +95,12 @@ class Run {
 /// The stages of one decision, each by itself.
 void stages(const BeliefView<3>& view, OpeningModel<3> opening, std::span<const Vec<3>> visited, const PlannerOptions& options, double range) {
   const Vec<3> here = visited.back();
-  timed("opening", [&] { return opening.update(view, here, range), 0; });
+  const auto grid = timed("blocks to march through", [&] { return MarchGrid<3>(view.state); });
+  timed("opening", [&] { return opening.update(view, here, range, &grid), 0; });
   const double opacity = options.lambda_factor * timed("opacity", [&] { return measured_opacity(view); });
   const auto reachable = timed("reachable", [&] { return reachable_nodes(view, here, options.clearance); });
   const auto medial = timed("medial", [&] { return medial_nodes<3>(view, reachable, visited, options); });
-  const RayMarch<3> march(view, opening.openness(), {opacity, range, 0.0});
+  const RayMarch<3> march(view, opening.openness(), {opacity, range, 0.0, nullptr, &grid});
   const auto limit = static_cast<std::size_t>(options.candidates);
   const auto nodes = timed("candidates", [&] { return choose_candidates<3>(medial, opening.faces(), march, view.window(), limit, 1); });
   const auto look = [&](std::size_t count, std::int64_t rays) {

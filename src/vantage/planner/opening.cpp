@@ -60,10 +60,10 @@ std::vector<BoundaryFace<Dim>> faces_of(const BeliefView<Dim>& view, const Field
 
 template <int Dim>
   requires SpatialDim<Dim>
-void OpeningModel<Dim>::update(const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range) {
+void OpeningModel<Dim>::update(const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range, const MarchGrid<Dim>* grid) {
   if (openness_.values.empty()) openness_ = failures_ = Field<Dim>(view.window());
   observers_.push_back(observer);
-  const RayMarch<Dim> rays(view, openness_, {0.0, max_range, 0.0});
+  const RayMarch<Dim> rays(view, openness_, {0.0, max_range, 0.0, nullptr, grid});
   learn(rays, view, observer, max_range);
   list_faces(view);
   gather_evidence(rays, max_range);

@@ -14,6 +14,7 @@
 #include "vantage/planner/baselines.h"
 #include "vantage/planner/boundary_metric.h"
 #include "vantage/planner/candidates.h"
+#include "vantage/planner/safe_path.h"
 
 namespace vantage {
 namespace {
@@ -94,7 +95,7 @@ Planner<Dim>::Planner(const PlannerOptions& options, double max_range, std::uint
 template <int Dim>
   requires SpatialDim<Dim>
 RayMarch<Dim> Planner<Dim>::rays(const BeliefView<Dim>& view) const {
-  return RayMarch<Dim>(view, opening_.openness(), {opacity_, max_range_, options_.tau_power, weight_.values.empty() ? nullptr : &weight_});
+  return RayMarch<Dim>(view, opening_.openness(), {opacity_, max_range_, options_.tau_power, weight_.values.empty() ? nullptr : &weight_, &grid_});
 }
 
 template <int Dim>
@@ -209,11 +210,12 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   using Metric = PlannerOptions::Metric;
   visited_.push_back(here);
   if (weight_.values.empty()) weight_ = weight_field<Dim>(view.window(), options_.weights);
-  opening_.update(view, here, max_range_);
+  grid_ = MarchGrid<Dim>(view.state);
+  opening_.update(view, here, max_range_, &grid_);
   opacity_ = options_.lambda_factor * measured_opacity(view);
   reachable_ = reachable_nodes(view, here, options_.clearance);
 
-  double seen_volume = static_cast<double>(std::count(view.state.values.begin(), view.state.values.end(), NodeState::seen));
+  auto seen_volume = static_cast<double>(seen_nodes(view));
   for (int a = 0; a < Dim; ++a) seen_volume *= view.window().spacing;
   idle_ = new_volume < 1e-5 * seen_volume ? idle_ + 1 : 0;
 
