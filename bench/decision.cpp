@@ -142,7 +142,8 @@ void row(const Scene<3>& scene, double voxel, const Settings& settings) {
     const Decision<3> decision = last ? timed("choose", choose) : choose();
     before = now;
     if (!last) {
-      opening.update(run.belief.view(), place, scene.range);
+      const MarchGrid<3> grid(run.belief.view().state);
+      opening.update(run.belief.view(), place, scene.range, &grid);
       if (decision.found) place = decision.position;
       continue;
     }

@@ -2,11 +2,11 @@
 #include "vantage/planner/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
-#include "vantage/field/stencil.h"
 #include "vantage/planner/regions.h"
 
 namespace vantage {
@@ -90,6 +90,26 @@ std::vector<std::size_t> viewers(const BoundaryFace<Dim>& face, const Blocks<Dim
   return found;
 }
 
+/// laplacian() of field/stencil.h with the steps at hand.
+template <int Dim>
+struct Curvature {
+  explicit Curvature(const Grid<Dim>& window) : grid(window) {
+    for (int a = 0; a < Dim; ++a) stride[static_cast<std::size_t>(a)] = grid.stride(a);
+  }
+  [[nodiscard]] double operator()(const Field<Dim>& field, std::size_t i, const Index<Dim>& node) const {
+    const double twice = 2.0 * static_cast<double>(field[i]);
+    double sum = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      if (node[a] == 0 || node[a] + 1 == grid.extent[a]) continue;
+      const std::size_t step = stride[static_cast<std::size_t>(a)];
+      sum += static_cast<double>(field[i - step]) + static_cast<double>(field[i + step]) - twice;
+    }
+    return sum / (grid.spacing * grid.spacing);
+  }
+  Grid<Dim> grid;
+  std::array<std::size_t, Dim> stride{};
+};
+
 }  // namespace
 
 template <int Dim>
@@ -154,9 +174,10 @@ std::vector<std::size_t> medial_nodes(const BeliefView<Dim>& view, const Field<D
         [](Nodes& all, Nodes part) { all.insert(all.end(), part.begin(), part.end()); });
   };
   const auto least_psi = 0.6 * h, least_curvature = options.curvature / h;
+  const Curvature<Dim> curvature(grid);
   Nodes medial = gather([&](std::size_t i, const Index<Dim>& node) {
     return static_cast<double>(view.psi[i]) > least_psi && static_cast<double>(view.known_distance[i]) >= off_surface &&
-           sign * laplacian(view.psi, node) > least_curvature;
+           sign * curvature(view.psi, i, node) > least_curvature;
   });
   return medial.empty() ? gather([](std::size_t, const Index<Dim>&) { return true; }) : medial;
 }

@@ -77,19 +77,49 @@ struct Stop {
   bool inside = false;  // At a cell that is not seen; false: left the window or the limit is reached.
 };
 
+/// One stride from `t`; false at a cell that is not seen.
+template <int Dim, class Codes>
+bool stride(const Ray<Dim>& ray, const Codes& codes, double& t) {
+  // The observer stands in free space even where the lattice calls its own node an obstacle.
+  const double own = std::sqrt(static_cast<double>(Dim));
+  const Index<Dim> cell = ray.cell(t);
+  const std::uint8_t code = codes.code(cell);
+  const bool seen = MarchGrid<Dim>::state(code) == NodeState::seen;
+  if (!seen && t > own) return false;
+  t = std::max(t, ray.exit(cell, seen ? MarchGrid<Dim>::distance(code) : 1)) + kNudge;
+  return true;
+}
+
 template <int Dim, class Codes>
 Stop march(const Ray<Dim>& ray, const Codes& codes, double limit) {
-  // The observer stands in free space even where the lattice calls its own node an obstacle.
-  const double own = std::sqrt(static_cast<double>(Dim)), end = std::min(limit, ray.end);
+  const double end = std::min(limit, ray.end);
   double t = 0.0;
-  while (t < end && ray.inside) {
-    const Index<Dim> cell = ray.cell(t);
-    const std::uint8_t code = codes.code(cell);
-    const bool seen = MarchGrid<Dim>::state(code) == NodeState::seen;
-    if (!seen && t > own) return {t, true};
-    t = std::max(t, ray.exit(cell, seen ? MarchGrid<Dim>::distance(code) : 1)) + kNudge;
-  }
+  while (t < end && ray.inside)
+    if (!stride(ray, codes, t)) return {t, true};
   return {ray.inside ? end : 0.0, false};
+}
+
+/// Runs `begin(i, state)` and then `step(i, state)` until that is false for all i < count, a step of each in turn, so that none waits for the memory
+/// that another asked for.
+template <class State, class Begin, class Step>
+void in_turn(std::size_t count, Begin&& begin, Step&& step) {
+  constexpr std::size_t kTogether = 16;
+  std::array<std::size_t, kTogether> number;
+  std::array<State, kTogether> state;
+  std::size_t active = 0, next = 0;
+  while (true) {
+    for (; active < kTogether && next < count; ++next)
+      if (begin(next, state[active])) number[active++] = next;
+    if (active == 0) return;
+    for (std::size_t k = 0; k < active;) {
+      if (step(number[k], state[k])) {
+        ++k;
+      } else {
+        number[k] = number[--active];
+        state[k] = state[active];
+      }
+    }
+  }
 }
 
 /// The rays' part of RaySums beyond where they stop.
@@ -101,13 +131,37 @@ class Beyond {
   Beyond(const Codes& codes, const Field<Dim>& openness, const Medium& medium, const Fading& fading)
       : codes_(codes), openness_(openness), medium_(medium), fading_(fading), h_(openness.window.spacing) {}
 
-  void add(const Ray<Dim>& ray, double range, double solid_angle, RaySums& sums) const {
+  /// On the way through what is not seen; a sample in the middle of every cell's length.
+  struct Depth {
+    double t = 0.0, transmitted = 0.0, volume = 0.0;
+  };
+  /// False if nothing opens where the ray stops; else adds to the other sums, per solid angle.
+  bool begin(const Ray<Dim>& ray, double range, Depth& depth, RaySums& sums) const {
     const double open = openness_at(ray, range);
-    if (open == 0.0) return;
-    const double here = weight(ray.cell(range)) * open * solid_angle;
+    if (open == 0.0) return false;
+    const double here = weight(ray.cell(range)) * open;
     sums.solid_angle += here;
     sums.area += here * cell_power<Dim>(range * h_) * inverse_power(std::max(range * h_, 1e-9), medium_.tau_power);
-    sums.volume += volume(ray, range, open) * solid_angle;
+    depth = {range + 0.5, open * unit_, 0.0};
+    return true;
+  }
+  /// On to where something else begins; false at a known surface and at the end.
+  bool step(const Ray<Dim>& ray, Depth& depth) const {
+    const double limit = std::min(medium_.max_range / h_, ray.end - kNudge);
+    if (depth.t >= limit || depth.transmitted <= 1e-6 * unit_) return false;
+    const Index<Dim> cell = ray.cell(depth.t);
+    const std::uint8_t code = codes_.code(cell);
+    const NodeState state = MarchGrid<Dim>::state(code);
+    if (state == NodeState::obstacle) return false;
+    const int reach = medium_.weight == nullptr ? MarchGrid<Dim>::distance(code) : 1;
+    const double samples = std::clamp(std::ceil(std::min(ray.exit(cell, reach), limit) - depth.t), 1.0, most_);
+    if (state == NodeState::unseen) {
+      const auto n = static_cast<std::size_t>(samples);
+      depth.volume += weight(cell) * depth.transmitted * power_sum(depth.t, n);
+      depth.transmitted *= fading_[n][Dim];
+    }
+    depth.t += samples;
+    return true;
   }
 
  private:
@@ -125,26 +179,6 @@ class Beyond {
   [[nodiscard]] double weight(const Index<Dim>& cell) const {
     return medium_.weight == nullptr ? 1.0 : static_cast<double>(medium_.weight->at(cell));
   }
-  /// Per solid angle: samples in the middle of every cell's length, a known surface ends it.
-  [[nodiscard]] double volume(const Ray<Dim>& ray, double range, double open) const {
-    const double limit = std::min(medium_.max_range / h_, ray.end - kNudge);
-    double transmitted = open * h_ * cell_power<Dim>(h_) * exp_minus(0.5 * medium_.lambda * h_), sum = 0.0;
-    const double least = 1e-6 * h_ * cell_power<Dim>(h_);
-    for (double t = range + 0.5; t < limit && transmitted > least;) {
-      const Index<Dim> cell = ray.cell(t);
-      const std::uint8_t code = codes_.code(cell);
-      const NodeState state = MarchGrid<Dim>::state(code);
-      if (state == NodeState::obstacle) break;
-      const int reach = medium_.weight == nullptr ? MarchGrid<Dim>::distance(code) : 1;
-      const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(std::min(ray.exit(cell, reach), limit) - t), 1.0, most_));
-      if (state == NodeState::unseen) {
-        sum += weight(cell) * transmitted * power_sum(t, samples);
-        transmitted *= fading_[samples][Dim];
-      }
-      t += static_cast<double>(samples);
-    }
-    return sum;
-  }
   /// Sum of f^k (t + k)^(Dim-1) for k < samples, by the binomial theorem.
   [[nodiscard]] double power_sum(double t, std::size_t samples) const {
     double sum = 0.0, binomial = 1.0;
@@ -160,16 +194,32 @@ class Beyond {
   const Medium& medium_;
   const Fading& fading_;
   double h_, most_ = static_cast<double>(fading_.size() - 1);
+  double unit_ = h_ * cell_power<Dim>(h_) * exp_minus(0.5 * medium_.lambda * h_);  // Of the first sample at range 1 [cell].
 };
 
+/// Sums per solid angle over all `rays`.
 template <int Dim, class Codes>
 RaySums look_along(const Codes& codes, const Beyond<Dim, Codes>& beyond, std::span<const Ray<Dim>> rays, double limit) {
-  const double solid_angle = 2.0 * kPi * (Dim - 1) / static_cast<double>(rays.size());
+  std::vector<Stop> stops(rays.size());
+  in_turn<double>(
+      rays.size(), [&](std::size_t i, double& t) { return t = 0.0, rays[i].inside; },
+      [&](std::size_t i, double& t) {
+        if (t >= std::min(limit, rays[i].end)) return false;
+        if (stride(rays[i], codes, t)) return true;
+        stops[i] = {t, true};
+        return false;
+      });
   RaySums sums;
-  for (const Ray<Dim>& ray : rays) {
-    const Stop stop = march(ray, codes, limit);
-    if (stop.inside) beyond.add(ray, stop.range, solid_angle, sums);
-  }
+  std::vector<double> volumes(rays.size());  // Added in the order of the rays.
+  using Depth = typename Beyond<Dim, Codes>::Depth;
+  in_turn<Depth>(
+      rays.size(), [&](std::size_t i, Depth& depth) { return stops[i].inside && beyond.begin(rays[i], stops[i].range, depth, sums); },
+      [&](std::size_t i, Depth& depth) {
+        if (beyond.step(rays[i], depth)) return true;
+        volumes[i] = depth.volume;
+        return false;
+      });
+  for (const double volume : volumes) sums.volume += volume;
   return sums;
 }
 
@@ -215,8 +265,11 @@ RaySums RayMarch<Dim>::look(const Vec<Dim>& origin, std::span<const Vec<Dim>> di
   rays.reserve(directions.size());
   for (const Vec<Dim>& direction : directions) rays.emplace_back(grid, origin, direction);
   const auto along = [&](const auto& codes) {
-    return look_along<Dim>(codes, Beyond<Dim, std::decay_t<decltype(codes)>>(codes, openness_, medium_, fading_), std::span<const Ray<Dim>>(rays),
-                           medium_.max_range / grid.spacing);
+    RaySums sums = look_along<Dim>(codes, Beyond<Dim, std::decay_t<decltype(codes)>>(codes, openness_, medium_, fading_),
+                                   std::span<const Ray<Dim>>(rays), medium_.max_range / grid.spacing);
+    const double solid_angle = 2.0 * kPi * (Dim - 1) / static_cast<double>(rays.size());
+    for (double* sum : {&sums.volume, &sums.solid_angle, &sums.area}) *sum *= solid_angle;
+    return sums;
   };
   return medium_.grid != nullptr ? along(*medium_.grid) : along(PlainCodes<Dim>{view_.state});
 }
