@@ -2,42 +2,49 @@
 #include "vantage/planner/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <unordered_map>
 
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
-#include "vantage/field/stencil.h"
+#include "vantage/planner/regions.h"
 
 namespace vantage {
 namespace {
 
 constexpr int kBlock = 4;  // Cells along a block's side.
 
-template <int Dim>
-std::uint64_t block_code(const Index<Dim>& block) {
-  std::uint64_t code = 0;
-  for (int a = 0; a < Dim; ++a) code = code << 21 | static_cast<std::uint64_t>(block[a] + 16);
-  return code;
-}
-
-/// Nodes grouped by block.
+/// Nodes grouped by block, in their order.
 template <int Dim>
 class Blocks {
  public:
-  Blocks(std::span<const std::size_t> nodes, const Grid<Dim>& grid) : grid_(grid) {
-    for (const std::size_t node : nodes) of_[block_code<Dim>(grid.local(node) / kBlock)].push_back(node);
+  Blocks(std::span<const std::size_t> nodes, const Grid<Dim>& grid) : grid_(grid), blocks_(grid), nodes_(nodes.size()) {
+    blocks_.extent = (grid.extent.array() + (kBlock - 1)) / kBlock;
+    std::vector<std::uint32_t> block_of_node;
+    block_of_node.reserve(nodes.size());
+    first_.assign(blocks_.size() + 1, 0);
+    for (const std::size_t node : nodes) {
+      block_of_node.push_back(static_cast<std::uint32_t>(number(block_of(node))));
+      ++first_[block_of_node.back() + 1];
+    }
+    for (std::size_t b = 0; b < blocks_.size(); ++b) first_[b + 1] += first_[b];
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes_[next[block_of_node[i]]++] = nodes[i];
   }
-  /// A random node of a block; none if it is empty.
+  /// A random node of a block; none if it is empty or outside.
   [[nodiscard]] const std::size_t* pick(const Index<Dim>& block, Random& random) const {
-    const auto found = of_.find(block_code<Dim>(block));
-    return found == of_.end() ? nullptr : &found->second[random.below(found->second.size())];
+    if (!blocks_.inside(block)) return nullptr;
+    const std::size_t first = first_[number(block)], count = first_[number(block) + 1] - first;
+    return count == 0 ? nullptr : &nodes_[first + random.below(count)];
   }
   [[nodiscard]] Index<Dim> block_of(std::size_t node) const { return grid_.local(node) / kBlock; }
+  [[nodiscard]] std::size_t number(const Index<Dim>& block) const { return blocks_.linear(block); }
+  [[nodiscard]] std::size_t count() const { return blocks_.size(); }
 
  private:
-  const Grid<Dim>& grid_;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> of_;
+  Grid<Dim> grid_, blocks_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::size_t> nodes_;
 };
 
 /// The faces to aim at: by probability with some chance, at most two a block and 600 in all.
@@ -48,10 +55,12 @@ std::vector<const BoundaryFace<Dim>*> targets(std::span<const BoundaryFace<Dim>>
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (faces[i].probability > 0.0) order.emplace_back(-faces[i].probability * random.uniform(0.5, 1.0), i);
   std::sort(order.begin(), order.end());
-  std::unordered_map<std::uint64_t, int> taken;
+  std::vector<std::uint8_t> taken(blocks.count());
   std::vector<const BoundaryFace<Dim>*> chosen;
   for (const auto& [score, i] : order) {
-    if (taken[block_code<Dim>(blocks.block_of(faces[i].unseen))]++ >= 2) continue;
+    std::uint8_t& of_block = taken[blocks.number(blocks.block_of(faces[i].unseen))];
+    if (of_block == 2) continue;
+    ++of_block;
     chosen.push_back(&faces[i]);
     if (chosen.size() == kMost) break;
   }
@@ -81,6 +90,26 @@ std::vector<std::size_t> viewers(const BoundaryFace<Dim>& face, const Blocks<Dim
   return found;
 }
 
+/// laplacian() of field/stencil.h with the steps at hand.
+template <int Dim>
+struct Curvature {
+  explicit Curvature(const Grid<Dim>& window) : grid(window) {
+    for (int a = 0; a < Dim; ++a) stride[static_cast<std::size_t>(a)] = grid.stride(a);
+  }
+  [[nodiscard]] double operator()(const Field<Dim>& field, std::size_t i, const Index<Dim>& node) const {
+    const double twice = 2.0 * static_cast<double>(field[i]);
+    double sum = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      if (node[a] == 0 || node[a] + 1 == grid.extent[a]) continue;
+      const std::size_t step = stride[static_cast<std::size_t>(a)];
+      sum += static_cast<double>(field[i - step]) + static_cast<double>(field[i + step]) - twice;
+    }
+    return sum / (grid.spacing * grid.spacing);
+  }
+  Grid<Dim> grid;
+  std::array<std::size_t, Dim> stride{};
+};
+
 }  // namespace
 
 template <int Dim>
@@ -89,34 +118,28 @@ Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<
   const Index<Dim> home = grid.nearest(from);
   const bool cramped = grid.inside(home) && static_cast<double>(view.known_distance.at(home)) < clearance;
   const double near = cramped ? 2.0 * clearance + 2.0 * grid.spacing : 0.0;
-  const auto passable = [&](std::size_t node) {
-    return view.seen(node) && (static_cast<double>(view.known_distance[node]) >= clearance || (grid.position(node) - from).norm() <= near);
-  };
-  Field<Dim, std::uint8_t> reached(grid);
-  std::vector<std::size_t> front;
-  const auto enter = [&](std::size_t node) {
-    if (reached[node] != 0 || !passable(node)) return;
-    reached[node] = 1;
-    front.push_back(node);
-  };
-  // Every seen node beside the scanner starts the flood.
+  const Regions<Dim> passable(grid, [&](std::size_t first, std::span<std::uint8_t> row) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      row[k] = view.seen(first + k) && (static_cast<double>(view.known_distance[first + k]) >= clearance ||
+                                        (cramped && (grid.position(first + k) - from).norm() <= near));
+  });
+  // Every seen node beside the scanner begins a region that is reached.
+  std::vector<std::uint8_t> reached(passable.count());
   int corners = 1;
   for (int a = 0; a < Dim; ++a) corners *= 3;
   for (int code = 0; code < corners; ++code) {
     Index<Dim> node = home;
     for (int a = 0, rest = code; a < Dim; ++a, rest /= 3) node[a] += rest % 3 - 1;
-    if (grid.inside(node)) enter(grid.linear(node));
+    const std::int32_t region = grid.inside(node) ? passable.region_of(grid.linear(node)) : -1;
+    if (region >= 0) reached[static_cast<std::size_t>(region)] = 1;
   }
-  while (!front.empty()) {
-    const std::size_t node = front.back();
-    front.pop_back();
-    const Index<Dim> here = grid.local(node);
-    for (int a = 0; a < Dim; ++a) {
-      if (here[a] > 0) enter(node - grid.stride(a));
-      if (here[a] + 1 < grid.extent[a]) enter(node + grid.stride(a));
-    }
-  }
-  return reached;
+  Field<Dim, std::uint8_t> nodes(grid);
+  parallel_for(passable.rows(), 256, [&](std::size_t r) {
+    std::uint8_t* row = nodes.values.data() + r * passable.row_length();
+    for (const auto& run : passable.row(r))
+      if (reached[static_cast<std::size_t>(run.region)] != 0) std::fill(row + run.begin, row + run.end, std::uint8_t{1});
+  });
+  return nodes;
 }
 
 template <int Dim>
@@ -130,22 +153,33 @@ std::vector<std::size_t> medial_nodes(const BeliefView<Dim>& view, const Field<D
     return std::none_of(visited.begin(), visited.end(), [&](const Vec<Dim>& v) { return (p - v).norm() < 2.0 * h; });
   };
   using Nodes = std::vector<std::size_t>;
+  const auto length = static_cast<std::size_t>(grid.extent[0]);
   const auto gather = [&](auto&& wanted) {
     return parallel_reduce(
-        grid.size(), std::size_t{1} << 15, Nodes{},
+        grid.size() / length, 64, Nodes{},
         [&](std::size_t begin, std::size_t end) {
           Nodes part;
-          for (std::size_t i = begin; i < end; ++i)
-            if (reachable[i] != 0 && wanted(i) && fresh(i)) part.push_back(i);
+          for (std::size_t r = begin; r < end; ++r) {
+            const Index<Dim> first = grid.local(r * length);
+            for (std::size_t k = 0; k < length; ++k) {
+              const std::size_t i = r * length + k;
+              if (reachable[i] == 0) continue;
+              Index<Dim> node = first;
+              node[0] = static_cast<std::int32_t>(k);
+              if (wanted(i, node) && fresh(i)) part.push_back(i);
+            }
+          }
           return part;
         },
         [](Nodes& all, Nodes part) { all.insert(all.end(), part.begin(), part.end()); });
   };
-  Nodes medial = gather([&](std::size_t i) {
-    return static_cast<double>(view.psi[i]) > 0.6 * h && static_cast<double>(view.known_distance[i]) >= off_surface &&
-           sign * laplacian(view.psi, grid.local(i)) > options.curvature / h;
+  const auto least_psi = 0.6 * h, least_curvature = options.curvature / h;
+  const Curvature<Dim> curvature(grid);
+  Nodes medial = gather([&](std::size_t i, const Index<Dim>& node) {
+    return static_cast<double>(view.psi[i]) > least_psi && static_cast<double>(view.known_distance[i]) >= off_surface &&
+           sign * curvature(view.psi, i, node) > least_curvature;
   });
-  return medial.empty() ? gather([](std::size_t) { return true; }) : medial;
+  return medial.empty() ? gather([](std::size_t, const Index<Dim>&) { return true; }) : medial;
 }
 
 template <int Dim>

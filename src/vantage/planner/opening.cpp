@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "vantage/base/parallel.h"
 
@@ -24,11 +23,12 @@ std::uint8_t bin_of(double value, const std::array<double, N>& edges) {
 
 template <int Dim>
   requires SpatialDim<Dim>
-void OpeningModel<Dim>::update(const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range) {
+void OpeningModel<Dim>::update(const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range, const MarchGrid<Dim>* grid) {
   if (openness_.values.empty()) openness_ = failures_ = Field<Dim>(view.window());
   observers_.push_back(observer);
-  const RayMarch<Dim> rays(view, openness_, {0.0, max_range, 0.0});
+  const RayMarch<Dim> rays(view, openness_, {0.0, max_range, 0.0, nullptr, grid});
   learn(rays, view, observer, max_range);
+  for (const BoundaryFace<Dim>& face : faces_) openness_[face.unseen] = 0.0F;
   list_faces(view);
   gather_evidence(rays, max_range);
   classify(view.window());
@@ -104,20 +104,15 @@ template <int Dim>
   requires SpatialDim<Dim>
 void OpeningModel<Dim>::classify(const Grid<Dim>& grid) {
   const double h = grid.spacing;
-  const auto block = [&](std::size_t node) {  // Of 3 h.
-    std::uint64_t code = 0;
-    const Index<Dim> local = grid.local(node);
-    for (int a = 0; a < Dim; ++a) code = code << 21 | static_cast<std::uint64_t>(local[a] / 3);
-    return code;
-  };
-  std::unordered_map<std::uint64_t, int> company;
+  Grid<Dim> blocks = grid;  // Of 3 h.
+  blocks.extent = (grid.extent.array() + 2) / 3;
+  const auto block = [&](std::size_t node) { return blocks.linear(grid.local(node) / 3); };
+  std::vector<int> company(blocks.size());
   for (const BoundaryFace<Dim>& face : faces_)
     if (face.known_distance >= 0.75 * h) ++company[block(face.unseen)];
-  std::fill(openness_.values.begin(), openness_.values.end(), 0.0F);
   for (BoundaryFace<Dim>& face : faces_) {
     const double failed = static_cast<double>(failures_[face.unseen]);
-    const auto found = company.find(block(face.unseen));
-    const int others = found == company.end() ? 0 : found->second;
+    const int others = company[block(face.unseen)];
     const auto a = bin_of(face.known_distance / h, std::array{.5, .75, 1.2, 2.0});
     const auto c =
         failed >= 0.3 ? static_cast<std::uint8_t>(4 + bin_of(failed, std::array{.3, .9, 2.0})) : bin_of(face.frontal, std::array{.03, .08, .16, .3});

@@ -31,8 +31,9 @@ class OpeningModel {
 
   explicit OpeningModel(Rule rule) : rule_(rule) {}
 
-  /// Takes in the belief after a scan from `observer`: counts which of the old faces in view opened, then lists the faces anew.
-  void update(const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range);
+  /// Takes in the belief after a scan from `observer`: counts which of the old faces in view opened, then lists the faces anew. `grid`: see
+  /// RayMarch::Medium.
+  void update(const BeliefView<Dim>& view, const Vec<Dim>& observer, double max_range, const MarchGrid<Dim>* grid = nullptr);
 
   [[nodiscard]] std::span<const BoundaryFace<Dim>> faces() const { return faces_; }
   /// Per unseen node the largest probability of its faces; 0 elsewhere.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vantage/base/parallel.h"
+#include "vantage/planner/march_grid.h"
 
 namespace vantage {
 namespace {
@@ -26,6 +27,202 @@ double cell_power(double r) {  // r^(Dim-1)
   return value;
 }
 
+constexpr double kNudge = 1e-6;  // Past the side of a cell, into the next [cells].
+
+/// A straight line through cells [i, i + 1) along every axis; lengths in cells.
+template <int Dim>
+struct Ray {
+  Ray(const Grid<Dim>& grid, const Vec<Dim>& origin, const Vec<Dim>& d)
+      : start(origin / grid.spacing - grid.first.template cast<double>() + Vec<Dim>::Constant(0.5)), direction(d) {
+    for (int a = 0; a < Dim; ++a) {
+      inverse[a] = std::abs(d[a]) > 1e-9 ? 1.0 / d[a] : 1e18;
+      ahead[a] = inverse[a] > 0.0 ? 1 : 0;
+      inside = inside && start[a] >= 0.0 && start[a] < grid.extent[a];
+      end = std::min(end, ((inverse[a] > 0.0 ? grid.extent[a] : 0) - start[a]) * inverse[a]);
+    }
+  }
+  [[nodiscard]] Index<Dim> cell(double t) const {
+    Index<Dim> i;
+    for (int a = 0; a < Dim; ++a) i[a] = static_cast<std::int32_t>(start[a] + t * direction[a]);
+    return i;
+  }
+  /// Where it leaves the cube of all cells less than `distance` away along every axis.
+  [[nodiscard]] double exit(const Index<Dim>& from, int distance) const {
+    double least = kInfinity;
+    for (int a = 0; a < Dim; ++a) {
+      const std::int32_t side = from[a] + 1 - distance + ahead[a] * (2 * distance - 1);
+      least = std::min(least, (static_cast<double>(side) - start[a]) * inverse[a]);
+    }
+    return least;
+  }
+
+  Vec<Dim> start, direction, inverse;
+  Index<Dim> ahead;
+  bool inside = true;      // The start lies in the window.
+  double end = kInfinity;  // Where it leaves the window.
+};
+
+/// Codes as MarchGrid's, cell by cell.
+template <int Dim>
+struct PlainCodes {
+  const Field<Dim, NodeState>& state;
+  [[nodiscard]] std::uint8_t code(const Index<Dim>& cell) const {
+    const Index<Dim> node = cell.cwiseMin((state.window.extent.array() - 1).matrix());
+    return static_cast<std::uint8_t>(static_cast<int>(state.at(node)) << 6 | 1);
+  }
+};
+
+struct Stop {
+  double range = 0.0;   // [cells]
+  bool inside = false;  // At a cell that is not seen; false: left the window or the limit is reached.
+};
+
+/// One stride from `t`; false at a cell that is not seen.
+template <int Dim, class Codes>
+bool stride(const Ray<Dim>& ray, const Codes& codes, double& t) {
+  // The observer stands in free space even where the lattice calls its own node an obstacle.
+  const double own = std::sqrt(static_cast<double>(Dim));
+  const Index<Dim> cell = ray.cell(t);
+  const std::uint8_t code = codes.code(cell);
+  const bool seen = MarchGrid<Dim>::state(code) == NodeState::seen;
+  if (!seen && t > own) return false;
+  t = std::max(t, ray.exit(cell, seen ? MarchGrid<Dim>::distance(code) : 1)) + kNudge;
+  return true;
+}
+
+template <int Dim, class Codes>
+Stop march(const Ray<Dim>& ray, const Codes& codes, double limit) {
+  const double end = std::min(limit, ray.end);
+  double t = 0.0;
+  while (t < end && ray.inside)
+    if (!stride(ray, codes, t)) return {t, true};
+  return {ray.inside ? end : 0.0, false};
+}
+
+/// Runs `begin(i, state)` and then `step(i, state)` until that is false for all i < count, a step of each in turn, so that none waits for the memory
+/// that another asked for.
+template <class State, class Begin, class Step>
+void in_turn(std::size_t count, Begin&& begin, Step&& step) {
+  constexpr std::size_t kTogether = 16;
+  std::array<std::size_t, kTogether> number;
+  std::array<State, kTogether> state;
+  std::size_t active = 0, next = 0;
+  while (true) {
+    for (; active < kTogether && next < count; ++next)
+      if (begin(next, state[active])) number[active++] = next;
+    if (active == 0) return;
+    for (std::size_t k = 0; k < active;) {
+      if (step(number[k], state[k])) {
+        ++k;
+      } else {
+        number[k] = number[--active];
+        state[k] = state[active];
+      }
+    }
+  }
+}
+
+/// The rays' part of RaySums beyond where they stop.
+template <int Dim, class Codes>
+class Beyond {
+ public:
+  using Medium = typename RayMarch<Dim>::Medium;
+  using Fading = std::vector<std::array<double, Dim + 1>>;
+  Beyond(const Codes& codes, const Field<Dim>& openness, const Medium& medium, const Fading& fading)
+      : codes_(codes), openness_(openness), medium_(medium), fading_(fading), h_(openness.window.spacing) {}
+
+  /// On the way through what is not seen; a sample in the middle of every cell's length.
+  struct Depth {
+    double t = 0.0, transmitted = 0.0, volume = 0.0;
+  };
+  /// False if nothing opens where the ray stops; else adds to the other sums, per solid angle.
+  bool begin(const Ray<Dim>& ray, double range, Depth& depth, RaySums& sums) const {
+    const double open = openness_at(ray, range);
+    if (open == 0.0) return false;
+    const double here = weight(ray.cell(range)) * open;
+    sums.solid_angle += here;
+    sums.area += here * cell_power<Dim>(range * h_) * inverse_power(std::max(range * h_, 1e-9), medium_.tau_power);
+    depth = {range + 0.5, open * unit_, 0.0};
+    return true;
+  }
+  /// On to where something else begins; false at a known surface and at the end.
+  bool step(const Ray<Dim>& ray, Depth& depth) const {
+    const double limit = std::min(medium_.max_range / h_, ray.end - kNudge);
+    if (depth.t >= limit || depth.transmitted <= 1e-6 * unit_) return false;
+    const Index<Dim> cell = ray.cell(depth.t);
+    const std::uint8_t code = codes_.code(cell);
+    const NodeState state = MarchGrid<Dim>::state(code);
+    if (state == NodeState::obstacle) return false;
+    const int reach = medium_.weight == nullptr ? MarchGrid<Dim>::distance(code) : 1;
+    const double samples = std::clamp(std::ceil(std::min(ray.exit(cell, reach), limit) - depth.t), 1.0, most_);
+    if (state == NodeState::unseen) {
+      const auto n = static_cast<std::size_t>(samples);
+      depth.volume += weight(cell) * depth.transmitted * power_sum(depth.t, n);
+      depth.transmitted *= fading_[n][Dim];
+    }
+    depth.t += samples;
+    return true;
+  }
+
+ private:
+  /// The first unseen node may be met over a corner and have no face to a seen one: the next along the ray then carries the probability.
+  [[nodiscard]] double openness_at(const Ray<Dim>& ray, double range) const {
+    const double give_up = std::min(range + std::sqrt(static_cast<double>(Dim)), ray.end);
+    for (double t = range; t < give_up; t += 0.5) {
+      const Index<Dim> cell = ray.cell(t);
+      if (MarchGrid<Dim>::state(codes_.code(cell)) != NodeState::unseen) return 0.0;
+      const float open = openness_.at(cell);
+      if (open > 0.0F) return static_cast<double>(open);
+    }
+    return 0.0;
+  }
+  [[nodiscard]] double weight(const Index<Dim>& cell) const {
+    return medium_.weight == nullptr ? 1.0 : static_cast<double>(medium_.weight->at(cell));
+  }
+  /// Sum of f^k (t + k)^(Dim-1) for k < samples, by the binomial theorem.
+  [[nodiscard]] double power_sum(double t, std::size_t samples) const {
+    double sum = 0.0, binomial = 1.0;
+    for (std::size_t j = 0; j < Dim; ++j) {  // Horner from the highest power of t.
+      sum = sum * t + binomial * fading_[samples][j];
+      binomial = binomial * static_cast<double>(Dim - 1 - j) / static_cast<double>(j + 1);
+    }
+    return sum;
+  }
+
+  const Codes& codes_;
+  const Field<Dim>& openness_;
+  const Medium& medium_;
+  const Fading& fading_;
+  double h_, most_ = static_cast<double>(fading_.size() - 1);
+  double unit_ = h_ * cell_power<Dim>(h_) * exp_minus(0.5 * medium_.lambda * h_);  // Of the first sample at range 1 [cell].
+};
+
+/// Sums per solid angle over all `rays`.
+template <int Dim, class Codes>
+RaySums look_along(const Codes& codes, const Beyond<Dim, Codes>& beyond, std::span<const Ray<Dim>> rays, double limit) {
+  std::vector<Stop> stops(rays.size());
+  in_turn<double>(
+      rays.size(), [&](std::size_t i, double& t) { return t = 0.0, rays[i].inside; },
+      [&](std::size_t i, double& t) {
+        if (t >= std::min(limit, rays[i].end)) return false;
+        if (stride(rays[i], codes, t)) return true;
+        stops[i] = {t, true};
+        return false;
+      });
+  RaySums sums;
+  std::vector<double> volumes(rays.size());  // Added in the order of the rays.
+  using Depth = typename Beyond<Dim, Codes>::Depth;
+  in_turn<Depth>(
+      rays.size(), [&](std::size_t i, Depth& depth) { return stops[i].inside && beyond.begin(rays[i], stops[i].range, depth, sums); },
+      [&](std::size_t i, Depth& depth) {
+        if (beyond.step(rays[i], depth)) return true;
+        volumes[i] = depth.volume;
+        return false;
+      });
+  for (const double volume : volumes) sums.volume += volume;
+  return sums;
+}
+
 }  // namespace
 
 double inverse_power(double x, double power) {
@@ -42,74 +239,21 @@ double inverse_power(double x, double power) {
 template <int Dim>
   requires SpatialDim<Dim>
 RayMarch<Dim>::RayMarch(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium)
-    : view_(view), openness_(openness), medium_(medium) {}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-bool RayMarch<Dim>::locate(const Vec<Dim>& place, std::size_t& node) const {
-  const Grid<Dim>& grid = view_.window();
-  node = 0;
-  for (int a = Dim - 1; a >= 0; --a) {
-    const auto i = static_cast<std::int32_t>(std::floor(place[a] + 0.5));
-    if (i < 0 || i >= grid.extent[a]) return false;
-    node = node * static_cast<std::size_t>(grid.extent[a]) + static_cast<std::size_t>(i);
-  }
-  return true;
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-typename RayMarch<Dim>::Stop RayMarch<Dim>::march(const Vec<Dim>& start, const Vec<Dim>& direction, double limit) const {
-  const double cells = 1.0 / view_.window().spacing;
-  // A node's psi is its distance to the nearest node not seen, less half a cell; the sample is up to half a diagonal off its node, and so may be the
-  // place where another node becomes the nearest.
-  const double slack = std::sqrt(static_cast<double>(Dim)) - 0.5;
-  // The observer stands in free space even where the lattice calls its own node an obstacle.
-  const double own = std::sqrt(static_cast<double>(Dim));
-  Stop stop;
-  double t = 0.0;
-  while (t < limit) {
-    if (!locate(start + t * direction, stop.node)) {
-      stop.range = t;
-      return stop;
+    : view_(view), openness_(openness), medium_(medium) {
+  constexpr std::size_t kMost = 2 * MarchGrid<Dim>::kFar;
+  const double fade = exp_minus(medium.lambda * view.window().spacing);
+  fading_.resize(kMost + 1);
+  std::array<double, Dim> sums{};
+  double left = 1.0;
+  for (std::size_t n = 0; n <= kMost; ++n) {
+    double power = left;
+    for (std::size_t j = 0; j < Dim; ++j) {
+      fading_[n][j] = sums[j];
+      sums[j] += power;
+      power *= static_cast<double>(n);
     }
-    if (!view_.seen(stop.node) && t > own) {
-      stop.range = t;
-      stop.inside = true;
-      return stop;
-    }
-    t += std::max(0.5, static_cast<double>(view_.psi[stop.node]) * cells - slack);
-  }
-  stop.range = limit;
-  return stop;
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-void RayMarch<Dim>::add_beyond(const Vec<Dim>& start, const Vec<Dim>& direction, const Stop& stop, double solid_angle, RaySums& sums) const {
-  // The first unseen node may be met over a corner and have no face to a seen one: the next along the ray then carries the probability.
-  double t = stop.range, weight = 0.0;
-  std::size_t node = stop.node;
-  const double give_up = t + std::sqrt(static_cast<double>(Dim));
-  while (weight == 0.0) {
-    if (view_.state[node] == NodeState::obstacle) return;
-    weight = static_cast<double>(openness_[node]);
-    if (weight > 0.0) break;
-    t += 0.5;
-    if (t > give_up || !locate(start + t * direction, node) || view_.seen(node)) return;
-  }
-  const auto priority = [&](std::size_t at) { return medium_.weight == nullptr ? 1.0 : static_cast<double>((*medium_.weight)[at]); };
-  const double h = view_.window().spacing, limit = medium_.max_range / h, here = priority(node);
-  sums.solid_angle += here * weight * solid_angle;
-  sums.area += here * weight * solid_angle * cell_power<Dim>(stop.range * h) * inverse_power(std::max(stop.range * h, 1e-9), medium_.tau_power);
-  const double fade = exp_minus(medium_.lambda * h);  // Over one cell of the unseen.
-  double transmitted = weight * solid_angle * h;
-  for (t = stop.range; t < limit; t += 1.0) {
-    if (!locate(start + t * direction, node) || view_.state[node] == NodeState::obstacle) return;
-    if (view_.seen(node)) continue;
-    sums.volume += priority(node) * transmitted * cell_power<Dim>(t * h);
-    transmitted *= fade;
-    if (transmitted < 1e-6 * solid_angle) return;
+    fading_[n][Dim] = left;
+    left *= fade;
   }
 }
 
@@ -117,14 +261,17 @@ template <int Dim>
   requires SpatialDim<Dim>
 RaySums RayMarch<Dim>::look(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const {
   const Grid<Dim>& grid = view_.window();
-  const Vec<Dim> start = origin / grid.spacing - grid.first.template cast<double>();
-  const double solid_angle = 2.0 * kPi * (Dim - 1) / static_cast<double>(directions.size());
-  RaySums sums;
-  for (const Vec<Dim>& direction : directions) {
-    const Stop stop = march(start, direction, medium_.max_range / grid.spacing);
-    if (stop.inside) add_beyond(start, direction, stop, solid_angle, sums);
-  }
-  return sums;
+  std::vector<Ray<Dim>> rays;
+  rays.reserve(directions.size());
+  for (const Vec<Dim>& direction : directions) rays.emplace_back(grid, origin, direction);
+  const auto along = [&](const auto& codes) {
+    RaySums sums = look_along<Dim>(codes, Beyond<Dim, std::decay_t<decltype(codes)>>(codes, openness_, medium_, fading_),
+                                   std::span<const Ray<Dim>>(rays), medium_.max_range / grid.spacing);
+    const double solid_angle = 2.0 * kPi * (Dim - 1) / static_cast<double>(rays.size());
+    for (double* sum : {&sums.volume, &sums.solid_angle, &sums.area}) *sum *= solid_angle;
+    return sums;
+  };
+  return medium_.grid != nullptr ? along(*medium_.grid) : along(PlainCodes<Dim>{view_.state});
 }
 
 template <int Dim>
@@ -134,8 +281,8 @@ bool RayMarch<Dim>::line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, doub
   const Vec<Dim> offset = (to - from) / grid.spacing;
   const double distance = offset.norm(), limit = distance - slack / grid.spacing;
   if (limit <= 0.0) return true;
-  const Vec<Dim> start = from / grid.spacing - grid.first.template cast<double>();
-  return march(start, offset / distance, limit).range >= limit;
+  const Ray<Dim> ray(grid, from, offset / distance);
+  return (medium_.grid != nullptr ? march(ray, *medium_.grid, limit) : march(ray, PlainCodes<Dim>{view_.state}, limit)).range >= limit;
 }
 
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vantage/field/belief_view.h"
+#include "vantage/planner/march_grid.h"
 
 namespace vantage {
 
@@ -23,42 +24,35 @@ struct RaySums {
   double area = 0.0;         ///< Eq. (1) with line of sight: sum of w tau r^(d-1) dOmega [m^(Dim-1)].
 };
 
-/// Rays through the belief. They move through seen space by psi and stop at the first node that is not seen.
+/// Rays through the belief, from cell to cell; a node's cell is the cube around it. They end at the first cell that is not seen.
 template <int Dim>
   requires SpatialDim<Dim>
 class RayMarch {
  public:
   struct Medium {
-    double lambda = 0.0;                 ///< Opacity of the unseen [1/m].
-    double max_range = 80.0;             ///< [m]
-    double tau_power = 0.0;              ///< tau = r^-p.
-    const Field<Dim>* weight = nullptr;  ///< w per node [1]; none: 1 everywhere.
+    double lambda = 0.0;                   ///< Opacity of the unseen [1/m].
+    double max_range = 80.0;               ///< [m]
+    double tau_power = 0.0;                ///< tau = r^-p.
+    const Field<Dim>* weight = nullptr;    ///< w per node [1]; none: 1 everywhere.
+    const MarchGrid<Dim>* grid = nullptr;  ///< Of the same states, to stride over what is alike; none: cell by cell, with the same result.
   };
-  /// `openness`: for each unseen node the probability that it opens when looked at, 0 where nothing is known [1]. Both must outlive this.
+  /// `openness`: for each unseen node the probability that it opens when looked at, 0 where nothing is known [1]. All must outlive this.
   RayMarch(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium);
 
   /// Ray form of the metric (method.md Sec. 5) over `directions`, which share the full sphere evenly.
   [[nodiscard]] RaySums look(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const;
 
-  /// True if the straight line from `from` runs through seen nodes until it is within `slack` of `to` [m].
+  /// True if the straight line from `from` runs through seen cells until it is within `slack` of `to` [m].
   [[nodiscard]] bool line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, double slack) const;
   /// w at a place; 1 outside of the window.
   [[nodiscard]] double weight_at(const Vec<Dim>& place) const;
   [[nodiscard]] double spacing() const { return view_.window().spacing; }
 
  private:
-  struct Stop {
-    double range = 0.0;    // [cells]
-    std::size_t node = 0;  // First node not seen.
-    bool inside = false;   // False: left the domain or the range.
-  };
-  [[nodiscard]] Stop march(const Vec<Dim>& start, const Vec<Dim>& direction, double limit) const;
-  [[nodiscard]] bool locate(const Vec<Dim>& place, std::size_t& node) const;
-  void add_beyond(const Vec<Dim>& start, const Vec<Dim>& direction, const Stop& stop, double solid_angle, RaySums& sums) const;
-
   BeliefView<Dim> view_;
   const Field<Dim>& openness_;
   Medium medium_;
+  std::vector<std::array<double, Dim + 1>> fading_;  // Of n cells of the unseen: sums of f^k k^j for k < n, j < Dim, and f^n; f: left after a cell.
 };
 
 /// x^-power, with the power rounded down to quarters (+ - * / sqrt only).

@@ -4,54 +4,40 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vantage/base/parallel.h"
+#include "vantage/planner/regions.h"
+
 namespace vantage {
 namespace {
 
-/// Connected unseen nodes (over faces): label per node, -1 for the others.
+/// What hangs together and is unseen.
 template <int Dim>
-struct Components {
-  Field<Dim, std::int32_t> label;
-
-  struct Part {
-    double nodes = 0.0;
-    double deepest = 0.0;                                  // Largest -psi [m].
-    Index<Dim> low, high;                                  // Inclusive.
-    double open = 0.0, open_most = 0.0, open_least = 0.0;  // What its faces may open [m^Dim].
-    bool has_face = false, reachable = false;
-  };
-  std::vector<Part> parts;
-
-  explicit Components(const BeliefView<Dim>& view) : label(view.window(), -1) {
-    const Grid<Dim>& grid = view.window();
-    std::vector<std::size_t> front;
-    for (std::size_t first = 0; first < grid.size(); ++first) {
-      if (view.state[first] != NodeState::unseen || label[first] >= 0) continue;
-      const auto id = static_cast<std::int32_t>(parts.size());
-      Part& part = parts.emplace_back();
-      part.low = part.high = grid.local(first);
-      label[first] = id;
-      front.push_back(first);
-      while (!front.empty()) {
-        const std::size_t node = front.back();
-        front.pop_back();
-        const Index<Dim> here = grid.local(node);
-        part.nodes += 1.0;
-        part.deepest = std::max(part.deepest, -static_cast<double>(view.psi[node]));
-        part.low = part.low.cwiseMin(here);
-        part.high = part.high.cwiseMax(here);
-        const auto enter = [&](std::size_t next) {
-          if (view.state[next] != NodeState::unseen || label[next] >= 0) return;
-          label[next] = id;
-          front.push_back(next);
-        };
-        for (int a = 0; a < Dim; ++a) {
-          if (here[a] > 0) enter(node - grid.stride(a));
-          if (here[a] + 1 < grid.extent[a]) enter(node + grid.stride(a));
-        }
-      }
-    }
-  }
+struct Part {
+  double nodes = 0.0;
+  double deepest = 0.0;                                  // Largest -psi [m].
+  Index<Dim> low, high;                                  // Inclusive.
+  double open = 0.0, open_most = 0.0, open_least = 0.0;  // What its faces may open [m^Dim].
+  bool has_face = false, reachable = false;
 };
+
+template <int Dim>
+std::vector<Part<Dim>> parts_of(const BeliefView<Dim>& view, const Regions<Dim>& regions) {
+  const Grid<Dim>& grid = view.window();
+  std::vector<Part<Dim>> parts(regions.count());
+  for (std::size_t r = 0; r < regions.rows(); ++r)
+    for (const auto& run : regions.row(r)) {
+      Part<Dim>& part = parts[static_cast<std::size_t>(run.region)];
+      const std::size_t first = r * regions.row_length();
+      const Index<Dim> begin = grid.local(first + run.begin), end = grid.local(first + run.end - 1);
+      part.low = part.nodes > 0.0 ? Index<Dim>(part.low.cwiseMin(begin)) : begin;
+      part.high = part.nodes > 0.0 ? Index<Dim>(part.high.cwiseMax(end)) : end;
+      part.nodes += static_cast<double>(run.end - run.begin);
+      const float least = *std::min_element(view.psi.values.begin() + static_cast<std::ptrdiff_t>(first + run.begin),
+                                            view.psi.values.begin() + static_cast<std::ptrdiff_t>(first + run.end));
+      part.deepest = std::max(part.deepest, -static_cast<double>(least));
+    }
+  return parts;
+}
 
 /// Length of the unseen straight behind a face, at most `limit` [m].
 template <int Dim>
@@ -65,12 +51,19 @@ double depth_behind(const BeliefView<Dim>& view, const BoundaryFace<Dim>& face, 
   return std::min(depth, limit);
 }
 
-/// Bounding box of the nodes that are not 0 [m].
+/// Bounding box of the nodes that are 1 [m].
 template <int Dim>
 Box<Dim> bounds_of(const Field<Dim, std::uint8_t>& nodes) {
+  const auto length = static_cast<std::size_t>(nodes.window.extent[0]);
   Box<Dim> box;
-  for (std::size_t i = 0; i < nodes.values.size(); ++i)
-    if (nodes[i] != 0) box.extend(nodes.window.position(i));
+  for (std::size_t first = 0; first < nodes.values.size(); first += length) {
+    const auto row = nodes.values.begin() + static_cast<std::ptrdiff_t>(first), end = row + static_cast<std::ptrdiff_t>(length);
+    const auto begin = std::find(row, end, 1);
+    if (begin == end) continue;
+    const auto behind = std::find(std::make_reverse_iterator(end), std::make_reverse_iterator(begin), 1).base();
+    box.extend(nodes.window.position(first + static_cast<std::size_t>(begin - row)));
+    box.extend(nodes.window.position(first + static_cast<std::size_t>(behind - row) - 1));
+  }
   return box;
 }
 
@@ -90,15 +83,30 @@ double cell_measure(double h, int power) {
 }  // namespace
 
 template <int Dim>
+std::size_t seen_nodes(const BeliefView<Dim>& view) {
+  return parallel_reduce(
+      view.state.values.size(), std::size_t{1} << 16, std::size_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) count += view.seen(i) ? 1 : 0;
+        return count;
+      },
+      [](std::size_t& sum, std::size_t part) { sum += part; });
+}
+
+template <int Dim>
 Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
                     const AssessOptions& options) {
   const Grid<Dim>& grid = view.window();
   const double h = grid.spacing, cell = cell_measure<Dim>(h, Dim), face_area = cell_measure<Dim>(h, Dim - 1);
-  Components<Dim> components(view);
+  const Regions<Dim> regions(grid, [&](std::size_t first, std::span<std::uint8_t> row) {
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = view.state[first + k] == NodeState::unseen;
+  });
+  std::vector<Part<Dim>> parts = parts_of(view, regions);
   // Behind a face that opens one sees as deep as it goes, or a mean free path.
   const double free_path = options.opacity > 0.0 ? 1.0 / options.opacity : kInfinity;
   for (const BoundaryFace<Dim>& face : faces) {
-    auto& part = components.parts[static_cast<std::size_t>(components.label[face.unseen])];
+    Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(face.unseen))];
     const double behind = face_area * depth_behind(view, face, free_path);
     part.has_face = true;
     part.reachable = part.reachable || reachable[face.seen] != 0;
@@ -110,7 +118,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   const Box<Dim> ground = bounds_of(reachable);
   double open = 0.0, open_most = 0.0, open_least = 0.0;
   Verdict<Dim> verdict;
-  for (const auto& part : components.parts) {
+  for (const Part<Dim>& part : parts) {
     const double volume = part.nodes * cell;
     open += std::min(volume, part.open);
     open_most += std::min(volume, part.open_most);
@@ -133,7 +141,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   }
   std::stable_sort(verdict.unseen.begin(), verdict.unseen.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
 
-  const auto seen = static_cast<double>(std::count(view.state.values.begin(), view.state.values.end(), NodeState::seen)) * cell;
+  const double seen = static_cast<double>(seen_nodes(view)) * cell;
   const auto share = [&](double rest) { return seen + rest > 0.0 ? seen / (seen + rest) : 0.0; };
   verdict.seen_fraction = share(open);
   verdict.seen_low = share(open_most);
@@ -141,6 +149,8 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   return verdict;
 }
 
+template std::size_t seen_nodes<2>(const BeliefView<2>&);
+template std::size_t seen_nodes<3>(const BeliefView<3>&);
 template Verdict<2> assess<2>(const BeliefView<2>&, std::span<const BoundaryFace<2>>, const Field<2, std::uint8_t>&, const AssessOptions&);
 template Verdict<3> assess<3>(const BeliefView<3>&, std::span<const BoundaryFace<3>>, const Field<3, std::uint8_t>&, const AssessOptions&);
 

@@ -35,6 +35,10 @@ struct AssessOptions {
   double least_volume = 0.0;  ///< Smaller regions are not listed [m^Dim].
 };
 
+/// How many nodes are seen.
+template <int Dim>
+[[nodiscard]] std::size_t seen_nodes(const BeliefView<Dim>& view);
+
 /// What is left to see: shares and regions; `complete` and `reason` of the whole are the caller's.
 template <int Dim>
 [[nodiscard]] Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
