@@ -114,7 +114,8 @@ std::string drawn(const Chart& chart, const Curve& curve, const Axes& axes) {
                         escaped(chart.x_label), rounded(curve.x[i]), escaped(quantity(curve.y[i], chart.unit)));
   }
   if (line.empty()) return {};
-  std::string svg = fmt::format(R"(<g class="curve" style="--c:{}">)", curve.colour);
+  const bool dashed = curve.style == Curve::Style::dashed;
+  std::string svg = fmt::format(R"(<g class="curve{}" style="--c:{}">)", dashed ? " dashed" : "", curve.colour);
   if (curve.style == Curve::Style::area) {
     svg += fmt::format(R"(<path class="under" d="{}L{:.1f} {:.1f}H{:.1f}Z"/>)", line, last, kHeight - kBottom, first);
   }
