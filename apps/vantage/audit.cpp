@@ -126,6 +126,7 @@ int play(const Flags& flags) {
   AuditProgress progress(flags.quiet);
   const AuditOutcome outcome = play_audit(plan, progress);
   progress.finish();
+  if (outcome.audit.at("scenes").empty()) throw Error(ErrorCode::interrupted, "stopped before the first run was finished");
   write_file(plan.folder / "timing.json", as_text(outcome.timing));
   write_file(plan.folder / "report.html", audit_report(outcome.audit));
   write_file(plan.folder / "audit.json", as_text(outcome.audit));

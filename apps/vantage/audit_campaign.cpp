@@ -29,10 +29,18 @@ std::string slug(std::string text) {
 
 std::string crc(const Json& key) { return fmt::format("{:08x}", checksum(key.dump())); }
 
-void make_folder(const fs::path& folder) {
+/// Writes a result, in a folder that is made when the first one is there.
+void keep(const fs::path& path, const Json& json) {
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) throw Error(ErrorCode::io, "not a folder, and cannot be made one", folder.string());
+  fs::create_directories(path.parent_path(), error);
+  if (error) throw Error(ErrorCode::io, "not a folder, and cannot be made one", path.parent_path().string());
+  write_file(path, as_text(json));
+}
+
+void check_folder(const fs::path& folder) {
+  require(!fs::exists(folder) || fs::is_directory(folder), "is a file", folder.string());
+  const bool fits = !fs::exists(folder) || fs::is_empty(folder) || fs::exists(folder / "oracles");
+  require(fits, "the folder is not empty, and not of an audit", folder.string());
 }
 
 /// A file of an earlier call; throws bad_input when it is none.
@@ -118,10 +126,8 @@ class Layout {
     run.update(run_json(score, walls_seen<Dim>(*walls_, trial_->truth(), score.places)));
     run["reference_m3"] = oracles.at("reference_m3");
     run["oracles"] = oracles.at("oracles");
-    write_file(
-        timing,
-        as_text({{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"scans", score.places.size()}, {"seconds", seconds}}));
-    write_file(file, as_text(run));
+    keep(timing, {{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"scans", score.places.size()}, {"seconds", seconds}});
+    keep(file, run);
     progress_.done(result_line(run));
     return true;
   }
@@ -160,7 +166,7 @@ class Layout {
                     {"walls", table_->walls},
                     {"candidates", table_->candidates.size()},
                     {"oracles", oracles_json(*table_)}};
-    write_file(file, as_text(json));
+    keep(file, json);
     return json;
   }
 
@@ -266,6 +272,7 @@ std::vector<std::string> layouts_of(const std::string& scene, std::int64_t count
 }
 
 AuditOutcome play_audit(const AuditPlan& plan, AuditProgress& progress) {
+  check_folder(plan.folder);
   std::vector<std::vector<std::string>> layouts;
   std::int64_t total = 0, found = 0;
   for (const std::string& scene : plan.scenes) {
@@ -273,7 +280,6 @@ AuditOutcome play_audit(const AuditPlan& plan, AuditProgress& progress) {
     (void)make_world(layouts.back().front(), plan.settings);  // Wrong names are found before anything is written.
     total += static_cast<std::int64_t>(layouts.back().size() * plan.variants.size()) * plan.starts;
   }
-  for (const char* part : {"runs", "oracles", "seconds"}) make_folder(plan.folder / part);
   progress.expect(total);
   Json scenes = Json::array(), timing = Json::array();
   std::vector<Json> all;

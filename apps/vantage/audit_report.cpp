@@ -32,7 +32,8 @@ std::string share(const Json& value) { return value.is_number() ? fmt::format("{
 std::string duration(const Json& seconds) {
   if (!seconds.is_number()) return "–";
   const auto minutes = static_cast<int>(std::lround(seconds.get<double>() / 60.0));
-  return minutes < 2 ? fmt::format("{:.0f} s", seconds.get<double>()) : fmt::format("{}:{:02} h", minutes / 60, minutes % 60);
+  if (minutes < 2) return fmt::format("{:.0f} s", seconds.get<double>());
+  return minutes < 120 ? fmt::format("{} min", minutes) : fmt::format("{}:{:02} h", minutes / 60, minutes % 60);
 }
 
 Curve curve(const std::string& name, const char* colour, const Json& coverage, bool unseen) {
@@ -163,7 +164,8 @@ std::string audit_report(const Json& audit) {
       "<header><p class=\"eyebrow\">vantage audit</p><h1>How few scans?</h1>\n<p class=\"note\">{}{} starts in each layout.</p></header>\n<main>\n",
       audit.at("complete") == Json(true) ? "" : "Not complete: the same command goes on. ", plan.at("starts").get<int>());
   if (audit.at("scenes").size() > 1)
-    body += "<section><h2>All scenes</h2>\n<div class=\"charts\">" + waste(audit.at("all")) + "</div>\n" + tables(audit.at("all")) + "</section>\n";
+    body += "<section><h2>All scenes</h2>\n<div style=\"max-width:560px\">" + waste(audit.at("all")) + "</div>\n" + tables(audit.at("all")) +
+            "</section>\n";
   for (const Json& scene : audit.at("scenes")) body += scene_html(scene);
   body += "<section>" + method_html(plan) + variants_html(plan) + "</section>\n</main>\n<footer></footer>\n";
   return vantage::page("vantage audit", body);

@@ -138,7 +138,10 @@ std::string labels(const Chart& chart, const Axes& axes) {
     }
   }
   std::ranges::stable_sort(all, [](const Label& a, const Label& b) { return a.y < b.y; });
-  for (std::size_t i = 1; i < all.size(); ++i) all[i].y = std::max(all[i].y, all[i - 1].y + 17.0);
+  constexpr double kLine = 17.0;
+  for (std::size_t i = 1; i < all.size(); ++i) all[i].y = std::max(all[i].y, all[i - 1].y + kLine);
+  double lowest = kHeight - kBottom;
+  for (std::size_t i = all.size(); i-- > 0 && all[i].y > lowest; lowest -= kLine) all[i].y = lowest;  // Back up from below the axis.
   std::string svg;
   for (const Label& label : all) {
     svg += fmt::format(R"(<text class="name" style="--c:{}" x="{:.1f}" y="{:.1f}" dy=".35em">{}</text>)", label.curve->colour, kWidth - kRight + 10.0,
