@@ -7,6 +7,7 @@
 
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
+#include "vantage/field/fast_marching.h"
 #include "vantage/field/stencil.h"
 
 namespace vantage {
@@ -166,7 +167,30 @@ std::vector<std::size_t> choose_candidates(std::span<const std::size_t> nodes, s
   return chosen;
 }
 
+template <int Dim>
+std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::size_t target, const Vec<Dim>& here) {
+  // The node beside the scanner that the flood started from.
+  const Grid<Dim>& grid = reachable.window;
+  std::size_t home = target;
+  double nearest = kInfinity;
+  const Index<Dim> center = grid.nearest(here);
+  for (int code = 0, all = 1 << (2 * Dim); code < all; ++code) {
+    Index<Dim> node = center;
+    for (int a = 0; a < Dim; ++a) node[a] += (code >> (2 * a) & 3) - 1;
+    if (!grid.inside(node) || reachable.at(node) == 0) continue;
+    const double distance = (grid.position(node) - here).squaredNorm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    home = grid.linear(node);
+  }
+  const Seed seed{target, 0.0F};
+  std::vector<Vec<Dim>> path = descend(fast_march_to(reachable, std::span(&seed, 1), home), home);
+  path.insert(path.begin(), here);
+  return path;
+}
+
 #define VANTAGE_INSTANTIATE(D)                                                                                                               \
+  template std::vector<Vec<D>> safe_path<D>(const Field<D, std::uint8_t>&, std::size_t, const Vec<D>&);                                      \
   template Field<D, std::uint8_t> reachable_nodes<D>(const BeliefView<D>&, const Vec<D>&, double);                                           \
   template std::vector<std::size_t> medial_nodes<D>(const BeliefView<D>&, const Field<D, std::uint8_t>&, std::span<const Vec<D>>,            \
                                                     const PlannerOptions&);                                                                  \

@@ -27,4 +27,8 @@ template <int Dim>
 [[nodiscard]] std::vector<std::size_t> choose_candidates(std::span<const std::size_t> nodes, std::span<const BoundaryFace<Dim>> faces,
                                                          const RayMarch<Dim>& rays, const Grid<Dim>& grid, std::size_t limit, std::uint64_t seed);
 
+/// A way from `here` to the reachable node `target` through reachable nodes only.
+template <int Dim>
+[[nodiscard]] std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::size_t target, const Vec<Dim>& here);
+
 }  // namespace vantage

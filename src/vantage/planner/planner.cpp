@@ -10,7 +10,8 @@
 
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
-#include "vantage/field/fast_marching.h"
+#include "vantage/base/random.h"
+#include "vantage/planner/baselines.h"
 #include "vantage/planner/boundary_metric.h"
 #include "vantage/planner/candidates.h"
 
@@ -21,28 +22,6 @@ namespace {
 template <int Dim>
 std::size_t fewer(std::int64_t rays) {
   return static_cast<std::size_t>(std::max<std::int64_t>(rays >> (2 * (3 - Dim)), 16));
-}
-
-template <int Dim>
-std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::size_t target, const Vec<Dim>& here) {
-  // The node beside the scanner that the flood started from.
-  const Grid<Dim>& grid = reachable.window;
-  std::size_t home = target;
-  double nearest = kInfinity;
-  const Index<Dim> center = grid.nearest(here);
-  for (int code = 0, all = 1 << (2 * Dim); code < all; ++code) {
-    Index<Dim> node = center;
-    for (int a = 0; a < Dim; ++a) node[a] += (code >> (2 * a) & 3) - 1;
-    if (!grid.inside(node) || reachable.at(node) == 0) continue;
-    const double distance = (grid.position(node) - here).squaredNorm();
-    if (distance >= nearest) continue;
-    nearest = distance;
-    home = grid.linear(node);
-  }
-  const Seed seed{target, 0.0F};
-  std::vector<Vec<Dim>> path = descend(fast_march_to(reachable, std::span(&seed, 1), home), home);
-  path.insert(path.begin(), here);
-  return path;
 }
 
 /// w of every node, from the boxes of PlannerOptions::weights; empty if there are none.
@@ -74,7 +53,9 @@ void check_weights(const std::vector<double>& weights) {
 
 void describe(PlannerOptions& o, const OptionVisitor& visit) {
   using namespace std::string_literals;
-  visit("metric", o.metric, Choices{"ray", "boundary"}, "form of E: rays to the shadow boundary, or the paper's sum over its elements");
+  visit("metric", o.metric, Choices{"ray", "boundary", "nearest", "count", "random"},
+        "form of E: rays to the shadow boundary, or the paper's sum over its elements; or instead of E: nearest frontier, number of frontier faces in "
+        "view, any medial place");
   visit("volume_weight", o.volume_weight, "", Range{0, 1e6}, "ray form: weight of the expected new volume");
   visit("solid_angle_weight", o.solid_angle_weight, "", Range{0, 1e6}, "ray form: weight of the shadow boundary's solid angle");
   visit("area_weight", o.area_weight, "", Range{0, 1e6}, "ray form: weight of Eq. (1) with line of sight");
@@ -126,6 +107,17 @@ double Planner<Dim>::mix(const RaySums& sums) const {
 
 template <int Dim>
   requires SpatialDim<Dim>
+void Planner<Dim>::set_scale(std::span<const Scored> scored) {
+  scale_ = {};
+  for (const Scored& s : scored) {
+    scale_.volume = std::max(scale_.volume, s.sums.volume);
+    scale_.solid_angle = std::max(scale_.solid_angle, s.sums.solid_angle);
+    scale_.area = std::max(scale_.area, s.sums.area);
+  }
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
 auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) -> std::vector<Scored> {
   const RayMarch<Dim> march = rays(view);
   const std::uint64_t turn = seed_ * 1000003 + visited_.size();
@@ -135,12 +127,7 @@ auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const st
     parallel_for(some.size(), 1, [&](std::size_t i) { some[i].sums = march.look(view.window().position(some[i].node), directions); });
   };
   const auto rank = [&] {
-    scale_ = {};
-    for (const Scored& s : scored) {
-      scale_.volume = std::max(scale_.volume, s.sums.volume);
-      scale_.solid_angle = std::max(scale_.solid_angle, s.sums.solid_angle);
-      scale_.area = std::max(scale_.area, s.sums.area);
-    }
+    set_scale(scored);
     for (Scored& s : scored) s.score = mix(s.sums);
     std::sort(scored.begin(), scored.end(),
               [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
@@ -180,6 +167,33 @@ auto Planner<Dim>::score_by_boundary(const BeliefView<Dim>& view, std::span<cons
 
 template <int Dim>
   requires SpatialDim<Dim>
+auto Planner<Dim>::score_by_baseline(const BeliefView<Dim>& view, std::span<const std::size_t> nodes, std::span<const std::size_t> medial)
+    -> std::vector<Scored> {
+  using Metric = PlannerOptions::Metric;
+  const RayMarch<Dim> march = rays(view);
+  const std::vector<BoundaryFace<Dim>> frontier = frontier_faces(view, opening_.faces());
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_ * 1000003 + visited_.size());
+  std::vector<Scored> scored;
+  for (const std::size_t node : nodes) scored.push_back({node, {}, 0.0});
+  if (options_.metric == Metric::random && !medial.empty())
+    scored.push_back({medial[Random(seed_, visited_.size()).below(medial.size())], {}, 1.0});
+  if (options_.metric == Metric::nearest) {
+    const double h = view.window().spacing;
+    const auto places = frontier_places<Dim>(reachable_, frontier, visited_, options_.clearance + 1.5 * h);
+    if (places.empty()) return {};
+    scored.push_back({places[0].node, {}, 1.0 / (places[0].walk + h)});
+  }
+  parallel_for(scored.size(), 1, [&](std::size_t i) {
+    const Vec<Dim> z = view.window().position(scored[i].node);
+    scored[i].sums = march.look(z, directions);  // The end of the run is judged by expected volume whatever the metric.
+    if (options_.metric == Metric::count) scored[i].score = frontier_count<Dim>(frontier, march, z, max_range_);
+  });
+  set_scale(scored);
+  return scored;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
 typename Decision<Dim>::End Planner<Dim>::end_of(const Decision<Dim>& decision, double seen_volume) {
   using End = typename Decision<Dim>::End;
   if (!decision.found) return opening_.faces().empty() ? End::nothing_can_open : End::unreachable;
@@ -207,7 +221,9 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   const std::size_t limit = static_cast<std::size_t>(options_.candidates) * (4 - Dim);
   const std::uint64_t turn = seed_ * 7919 + visited_.size();
   const std::vector<std::size_t> nodes = choose_candidates<Dim>(medial, opening_.faces(), rays(view), view.window(), limit, turn);
-  const std::vector<Scored> scored = options_.metric == Metric::ray ? score_by_rays(view, nodes) : score_by_boundary(view, nodes);
+  const std::vector<Scored> scored = options_.metric == Metric::ray        ? score_by_rays(view, nodes)
+                                     : options_.metric == Metric::boundary ? score_by_boundary(view, nodes)
+                                                                           : score_by_baseline(view, nodes, medial);
 
   Decision<Dim> decision;
   decision.candidates = static_cast<std::int64_t>(scored.size());
@@ -234,7 +250,7 @@ template <int Dim>
   requires SpatialDim<Dim>
 std::vector<double> Planner<Dim>::evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const {
   const RayMarch<Dim> march = rays(view);
-  const bool by_rays = options_.metric == PlannerOptions::Metric::ray;
+  const bool by_rays = options_.metric != PlannerOptions::Metric::boundary;
   const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays / 2), seed_);
   const std::vector<BoundaryElement<Dim>> elements =
       by_rays ? std::vector<BoundaryElement<Dim>>{} : boundary_elements(view, opening_.faces(), options_);

@@ -16,7 +16,7 @@ template <int Dim>
 struct Decision {
   bool found = false;
   Vec<Dim> position = Vec<Dim>::Zero();  ///< arg max E [m]
-  double score = 0.0;                    ///< max E: mixed terms [1] for rays, Eq. (1) for the boundary sum [m^(Dim-1)].
+  double score = 0.0;                    ///< max E: mixed terms [1] for rays, Eq. (1) for the boundary sum [m^(Dim-1)], faces for `count`.
   double area = 0.0;                     ///< Eq. (1) with line of sight at the chosen place [m^(Dim-1)].
   double expected_volume = 0.0;          ///< Largest over the candidates [m^Dim].
   std::int64_t candidates = 0;           ///< Evaluated.
@@ -36,7 +36,7 @@ class Planner {
   /// arg max E after a scan at `here`, which saw `new_volume` for the first time [m^Dim].
   [[nodiscard]] Decision<Dim> choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume);
 
-  /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be.
+  /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be. Baselines: the ray form.
   [[nodiscard]] std::vector<double> evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const;
 
   /// Shares and regions as of the last decision.
@@ -50,8 +50,11 @@ class Planner {
   };
   [[nodiscard]] std::vector<Scored> score_by_rays(const BeliefView<Dim>& view, std::span<const std::size_t> nodes);
   [[nodiscard]] std::vector<Scored> score_by_boundary(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) const;
+  [[nodiscard]] std::vector<Scored> score_by_baseline(const BeliefView<Dim>& view, std::span<const std::size_t> nodes,
+                                                      std::span<const std::size_t> medial);
   [[nodiscard]] typename Decision<Dim>::End end_of(const Decision<Dim>& decision, double seen_volume);
   [[nodiscard]] double mix(const RaySums& sums) const;
+  void set_scale(std::span<const Scored> scored);
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
 
   PlannerOptions options_;

@@ -10,7 +10,9 @@ namespace vantage {
 /// The visibility metric E and how its maximum is searched (paper Eq. 1, Sec. III-A). The defaults are the best variant measured; the paper's
 /// own formulas, as repaired or as printed, are options, so that the differences can be measured.
 struct PlannerOptions {
-  enum class Metric { ray, boundary } metric = Metric::ray;  ///< March rays to the shadow boundary, or sum over its elements.
+  /// March rays to the shadow boundary, or sum over its elements; or what others do (baselines.h): walk to the nearest frontier, to where most faces
+  /// of it are in view, or to any medial node.
+  enum class Metric { ray, boundary, nearest, count, random } metric = Metric::ray;
 
   // Ray form: a sum of terms, each divided by its maximum over the candidates.
   double volume_weight = 1.0;       ///< Expected new volume.

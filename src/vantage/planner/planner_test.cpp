@@ -5,10 +5,9 @@
 
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
-#include "vantage/field/distance.h"
-#include "vantage/field/redistance.h"
 #include "vantage/planner/boundary_metric.h"
 #include "vantage/planner/candidates.h"
+#include "vantage/planner/test_belief.h"
 
 namespace vantage {
 namespace {
@@ -18,32 +17,7 @@ class PlannerTest : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(PlannerTest, Dimensions);
 
-constexpr double kH = 0.25;
-
-/// A belief made by hand: `state_at(position)` says what each node is.
-template <int Dim>
-struct HandMade {
-  Field<Dim, NodeState> state;
-  Field<Dim> psi, known_distance;
-
-  template <class StateAt>
-  HandMade(const Box<Dim>& box, StateAt&& state_at, double h = kH) : state(window_over(box, h)) {
-    Field<Dim, std::uint8_t> seen(state.window), obstacle(state.window);
-    for (std::size_t i = 0; i < state.values.size(); ++i) {
-      state[i] = state_at(state.window.position(i));
-      seen[i] = state[i] == NodeState::seen;
-      obstacle[i] = state[i] == NodeState::obstacle;
-    }
-    psi = signed_distance(seen, 8.0);
-    known_distance = distance_to_set(obstacle, 8.0);
-  }
-  [[nodiscard]] BeliefView<Dim> view() const { return {state, psi, known_distance}; }
-};
-
-template <int Dim>
-Box<Dim> cube(double half_side) {
-  return {Vec<Dim>::Constant(-half_side), Vec<Dim>::Constant(half_side)};
-}
+constexpr double kH = kTestSpacing;
 
 /// Seen for x < 0, unseen beyond: one wall of shadow boundary.
 template <int Dim>
@@ -54,13 +28,6 @@ HandMade<Dim> half_space(double half_side) {
 template <int Dim>
 Field<Dim> openness_one(const HandMade<Dim>& belief) {
   return Field<Dim>(belief.state.window, 1.0F);
-}
-
-template <int Dim>
-Vec<Dim> on_axis(double x) {
-  Vec<Dim> p = Vec<Dim>::Zero();
-  p[0] = x;
-  return p;
 }
 
 /// Closed forms for a plane at distance D within range R (2D: a line): area integral of cos over the disc, and the cap behind it.
