@@ -123,7 +123,7 @@ class Layout {
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     Json run{{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"cap", cap}};
-    run.update(run_json(score, walls_seen<Dim>(*walls_, trial_->truth(), score.places)));
+    run.update(run_json(score, walls_seen<Dim>(*surface_, trial_->truth(), score.places)));
     run["reference_m3"] = oracles.at("reference_m3");
     run["oracles"] = oracles.at("oracles");
     keep(timing, {{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"scans", score.places.size()}, {"seconds", seconds}});
@@ -143,6 +143,7 @@ class Layout {
     if (trial_) return;
     trial_.emplace(scene_, options_of(world_.scenario));
     walls_ = trial_->walls(plan_.walls);
+    surface_ = trial_->walls(all_surface(plan_.walls));
     starts_ = trial_->starts(plan_.starts, plan_.seed);
     if (plan_.scene_start) starts_[0] = Eigen::Map<const Vec<Dim>>(world_.scenario.start.data());
   }
@@ -161,6 +162,7 @@ class Layout {
                     {"start", start},
                     {"place", to_json<Dim>(place)},
                     {"reference_m3", trial_->reference().volume()},
+                    {"surface_m2", surface_->area},
                     {"walls_m2", walls_->area},
                     {"targets", table_->targets},
                     {"walls", table_->walls},
@@ -179,7 +181,7 @@ class Layout {
   std::vector<std::string> crcs_;    ///< A variant each.
   std::vector<Scenario> scenarios_;  ///< A variant each.
   std::optional<Trial<Dim>> trial_;
-  std::optional<Walls<Dim>> walls_;
+  std::optional<Walls<Dim>> walls_, surface_;
   std::optional<SightTable<Dim>> table_;
   std::vector<Vec<Dim>> starts_;
 };
@@ -269,6 +271,11 @@ std::vector<std::string> layouts_of(const std::string& scene, std::int64_t count
   std::vector<std::string> layouts;
   for (std::int64_t seed = 1; seed <= count; ++seed) layouts.push_back(with_seed(seed));
   return layouts;
+}
+
+WallOptions all_surface(WallOptions options) {
+  options.clutter = true;
+  return options;
 }
 
 AuditOutcome play_audit(const AuditPlan& plan, AuditProgress& progress) {

@@ -28,6 +28,9 @@ struct AuditPlan {
 /// The layouts of a scene: `blocks:seed=1`, `blocks:seed=2`, …; the scene alone if its seed is given or changes nothing.
 [[nodiscard]] std::vector<std::string> layouts_of(const std::string& scene, std::int64_t count);
 
+/// For the share of all surface seen.
+[[nodiscard]] vantage::WallOptions all_surface(vantage::WallOptions options);
+
 struct AuditOutcome {
   vantage::Json audit;   ///< `audit.json`: the same bytes however often the audit was interrupted.
   vantage::Json timing;  ///< `timing.json`: seconds.

@@ -119,7 +119,7 @@ std::string costs(const Json& variants) {
                     verdicts.at("judged") == 0 ? "–" : fmt::format("{} of {}", verdicts.at("right").get<int>(), verdicts.at("judged").get<int>())});
   }
   return table(
-      {"variant", ">way to 99 %", ">walking", ">flying", ">falsely free, most", ">falsely hidden", ">walls seen", ">thin parts", ">right verdicts"},
+      {"variant", ">way to 99 %", ">walking", ">flying", ">falsely free, most", ">falsely hidden", ">surface seen", ">thin parts", ">right verdicts"},
       rows);
 }
 
@@ -148,11 +148,10 @@ std::string method_html(const Json& plan) {
   return details(
       "How it is measured",
       "<p class=\"note\">The reference is all free space that a reachable place can see. Every run begins where its oracles begin. "
-      "oracle: greedy cover with the map in hand, from anywhere; seen: only from places that earlier scans have seen; walls: 99 % of the walls must "
-      "be "
-      "seen too, at a cosine of at least 0.1. Ratios are sums over sums. Walking: 1 m/s and 120 s a scan; flying: 2 m/s and 2 s. Falsely free: "
-      "called "
-      "seen, but no reachable place sees it. Falsely hidden: in true sight of a scan, but not called seen. Volumes are areas in 2D. A run may take " +
+      "oracle: greedy cover with the map in hand, from anywhere; seen: only from places that earlier scans have seen; walls: 99 % of the walls "
+      "must be seen too, at a cosine of at least 0.1 (trees, vehicles, furniture, poles, wires, fences and railings are no walls). "
+      "Ratios are sums over sums. Walking: 1 m/s and 120 s a scan; flying: 2 m/s and 2 s. Falsely free: called seen, but no reachable place "
+      "sees it. Falsely hidden: in true sight of a scan, but not called seen. Volumes are areas in 2D. A run may take " +
           vantage::rounded(plan.at("cap").get<double>()) + " times the scans of its oracle.</p>\n");
 }
 

@@ -68,7 +68,7 @@ Json score(const std::filesystem::path& folder, const World& world, const std::s
   progress.begin("the truth");
   const TrialOptions options = options_of(world.scenario, log.size());
   const Trial<Dim> trial(true_scene<Dim>(world, truth), options);
-  const Walls<Dim> walls = trial.walls(plan.walls);
+  const Walls<Dim> walls = trial.walls(plan.walls), surface = trial.walls(all_surface(plan.walls));
   const Vec<Dim> start = log.read(0).origin;
   const Json oracles = oracles_json(trial.sight_table(start, plan.oracle, &walls));
 
@@ -76,10 +76,11 @@ Json score(const std::filesystem::path& folder, const World& world, const std::s
   Playback<Dim> playback(log);
   RunScore<Dim> score = trial.run(playback, start, options, {.max_scans = log.size(), .observer = &progress});
   Json json{{"scene", trial.scene().name}};
-  json.update(run_json(score, walls_seen<Dim>(walls, trial.truth(), score.places)));
+  json.update(run_json(score, walls_seen<Dim>(surface, trial.truth(), score.places)));
   json["verdict"]["right"] = verdict_right(score.verdict, score.coverage.back());  // What the run's report says, finished or not.
   add_ratios(json, oracles);
   json["reference_m3"] = trial.reference().volume();
+  json["surface_m2"] = surface.area;
   json["walls_m2"] = walls.area;
   json["oracles"] = oracles;
   json["baselines"] = Json::object();
@@ -91,7 +92,7 @@ Json score(const std::filesystem::path& folder, const World& world, const std::s
     const Scenario scenario = with_settings(world.scenario, variant.settings, world.scene);
     const RunScore<Dim> theirs = trial.run(start, options_of(scenario, cap), {.max_scans = cap, .coverage = 0.99, .observer = &progress});
     Json& baseline = json["baselines"][variant.name];
-    baseline = run_json(theirs, walls_seen<Dim>(walls, trial.truth(), theirs.places));
+    baseline = run_json(theirs, walls_seen<Dim>(surface, trial.truth(), theirs.places));
     baseline["cap"] = cap;
     add_ratios(baseline, oracles);
     progress.done(fmt::format("{} scans", theirs.places.size()));

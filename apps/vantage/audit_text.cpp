@@ -79,7 +79,7 @@ std::string score_text(const Json& score, bool with_curves) {
   out += fmt::format("scans to           {:>8} {:>6} {:>6}\n", "90 %", "95 %", "99 %") + score_line("this run", score);
   for (const char* oracle : kOracles) out += score_line(fmt::format("oracle, {}", oracle), score.at("oracles").at(oracle));
   for (const auto& [name, run] : score.at("baselines").items()) out += score_line(name, run);
-  out += fmt::format("idle picks up to 99 %: {} of {}; falsely free {} m³, falsely hidden {} m³; walls seen {}\n", score.at("idle").get<int>(),
+  out += fmt::format("idle picks up to 99 %: {} of {}; falsely free {} m³, falsely hidden {} m³; surface seen {}\n", score.at("idle").get<int>(),
                      score.at("picks").get<int>(), fixed(score.at("false_free_m3"), 2), fixed(score.at("false_hidden_m3"), 2),
                      fixed(score.at("surface_share"), 4));
   out += fmt::format("verdict: {}, {}: {}\n", verdict.at("complete").get<bool>() ? "complete" : "not complete",

@@ -76,6 +76,9 @@ const std::vector<Variant>& built_in_variants() {
       variant("printed", "Eq. (1) and the candidates by the letter of the paper's listing",
               "planner.metric=boundary,planner.elements=printed,planner.facing=behind,planner.mask=none,planner.normalise=false,"
               "planner.line_of_sight=false,planner.printed_curvature=true"),
+      variant("nearest", "the nearest frontier", "planner.metric=nearest"),
+      variant("count", "where most faces of the frontier are in view", "planner.metric=count"),
+      variant("random", "any medial node", "planner.metric=random"),
   };
   return all;
 }

@@ -65,7 +65,7 @@ std::vector<Vec<Dim>> Trial<Dim>::starts(std::int64_t count, std::int64_t seed) 
 template <int Dim>
   requires SpatialDim<Dim>
 Walls<Dim> Trial<Dim>::walls(const WallOptions& options) const {
-  return reachable_walls(reference_, scene_.mesh, truth_, scene_.domain, options);
+  return reachable_walls(reference_, scene_, truth_, options);
 }
 
 template <int Dim>

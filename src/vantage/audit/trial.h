@@ -30,7 +30,7 @@ class Trial {
   [[nodiscard]] const Reference<Dim>& reference() const { return reference_; }
   /// Reachable free places drawn at random.
   [[nodiscard]] std::vector<Vec<Dim>> starts(std::int64_t count, std::int64_t seed) const;
-  /// The surface that can be seen.
+  /// The surface that can be seen, with or without clutter.
   [[nodiscard]] Walls<Dim> walls(const WallOptions& options = {}) const;
   /// What the oracles choose from; their first scan is taken at `start`.
   [[nodiscard]] SightTable<Dim> sight_table(const Vec<Dim>& start, const OracleOptions& options = {}, const Walls<Dim>* walls = nullptr) const;

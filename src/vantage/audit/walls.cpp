@@ -19,14 +19,21 @@ Patch<Dim> facet_of(const Mesh<Dim>& mesh, std::size_t facet) {
   return patch;
 }
 
-/// Sums of the sizes of the facets that reach into the domain; the others add nothing.
+constexpr std::string_view kClutter[] = {"tree", "vehicle", "furniture", "pole", "wire", "fence", "railing"};
+
+/// Sums of the sizes of the facets that reach into the domain; the others, and clutter that does not count, add nothing.
 template <int Dim>
-std::vector<double> running_sizes(const Mesh<Dim>& mesh, const Box<Dim>& domain) {
+std::vector<double> running_sizes(const Scene<Dim>& scene, bool clutter) {
+  std::vector<bool> counts(scene.mesh.facets.size(), true);
+  for (const auto& part : scene.parts) {
+    const bool left_out = !clutter && std::ranges::find(kClutter, part.name) != std::end(kClutter);
+    std::fill_n(counts.begin() + part.first, part.count, !left_out);
+  }
   std::vector<double> sums;
   double sum = 0.0;
-  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-    const Patch<Dim> facet = facet_of(mesh, f);
-    if (!facet.bounds().intersection(domain).empty()) sum += measure(facet);
+  for (std::size_t f = 0; f < counts.size(); ++f) {
+    const Patch<Dim> facet = facet_of(scene.mesh, f);
+    if (counts[f] && !facet.bounds().intersection(scene.domain).empty()) sum += measure(facet);
     sums.push_back(sum);
   }
   return sums;
@@ -60,6 +67,7 @@ void describe(WallOptions& o, const OptionVisitor& visit) {
   visit("places", o.places, "", Range{1, 1e8}, "places drawn on the true surface");
   visit("cosine", o.cosine, "", Range{0.0, 1.0}, "least cosine between line of sight and normal");
   visit("seed", o.seed, "", Range{0, 9e15}, "of the choice of places");
+  visit("clutter", o.clutter, "trees, vehicles, furniture, poles, wires, fences and railings count too");
 }
 
 template <int Dim>
@@ -82,10 +90,9 @@ bool Walls<Dim>::sees(const RayCaster<Dim>& truth, const Vec<Dim>& from, std::si
 }
 
 template <int Dim>
-Walls<Dim> reachable_walls(const Reference<Dim>& reference, const Mesh<Dim>& mesh, const RayCaster<Dim>& truth, const Box<Dim>& domain,
-                           const WallOptions& options) {
+Walls<Dim> reachable_walls(const Reference<Dim>& reference, const Scene<Dim>& scene, const RayCaster<Dim>& truth, const WallOptions& options) {
   check_options(options, "audit.walls");
-  const std::vector<double> sums = running_sizes(mesh, domain);
+  const std::vector<double> sums = running_sizes(scene, options.clutter);
   const double total = sums.empty() ? 0.0 : sums.back();
   Walls<Dim> drawn;
   drawn.cosine = options.cosine;
@@ -95,9 +102,9 @@ Walls<Dim> reachable_walls(const Reference<Dim>& reference, const Mesh<Dim>& mes
     const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(options.places) * total;
     const auto facet =
         std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), at) - sums.begin()), sums.size() - 1);
-    const Patch<Dim> patch = facet_of(mesh, facet);
+    const Patch<Dim> patch = facet_of(scene.mesh, facet);
     const Vec<Dim> p = place_on(patch, random);
-    if (!domain.grown(kAbove).contains(p)) continue;
+    if (!scene.domain.grown(kAbove).contains(p)) continue;
     drawn.places.push_back(p);
     drawn.normals.push_back(normal(patch));
   }
@@ -136,8 +143,8 @@ template struct Walls<2>;
 template struct Walls<3>;
 template Vec<2> place_on<2>(const Patch<2>&, Random&);
 template Vec<3> place_on<3>(const Patch<3>&, Random&);
-template Walls<2> reachable_walls<2>(const Reference<2>&, const Mesh<2>&, const RayCaster<2>&, const Box<2>&, const WallOptions&);
-template Walls<3> reachable_walls<3>(const Reference<3>&, const Mesh<3>&, const RayCaster<3>&, const Box<3>&, const WallOptions&);
+template Walls<2> reachable_walls<2>(const Reference<2>&, const Scene<2>&, const RayCaster<2>&, const WallOptions&);
+template Walls<3> reachable_walls<3>(const Reference<3>&, const Scene<3>&, const RayCaster<3>&, const WallOptions&);
 template std::vector<double> walls_seen<2>(const Walls<2>&, const RayCaster<2>&, std::span<const Vec<2>>);
 template std::vector<double> walls_seen<3>(const Walls<3>&, const RayCaster<3>&, std::span<const Vec<3>>);
 

@@ -7,6 +7,7 @@
 #include "vantage/audit/reference.h"
 #include "vantage/base/random.h"
 #include "vantage/geometry/patch.h"
+#include "vantage/world/scene.h"
 
 namespace vantage {
 
@@ -14,6 +15,7 @@ struct WallOptions {
   std::int64_t places = 10000;  ///< Drawn on the true surface; those that cannot be seen are left out.
   double cosine = 0.1;          ///< Between line of sight and normal, either side: a flatter look does not count [1].
   std::int64_t seed = 1;        ///< Of the choice of places.
+  bool clutter = false;         ///< Parts named tree, vehicle, furniture, pole, wire, fence, railing count too: not walls, but all surface.
 };
 
 void describe(WallOptions& options, const OptionVisitor& visit);
@@ -35,7 +37,7 @@ struct Walls {
 /// rays from it there stands a reachable node that sees it. Cost: a few rays for a place that can be seen, all rays for one that is hidden. Same
 /// bits for any number of threads.
 template <int Dim>
-[[nodiscard]] Walls<Dim> reachable_walls(const Reference<Dim>& reference, const Mesh<Dim>& mesh, const RayCaster<Dim>& truth, const Box<Dim>& domain,
+[[nodiscard]] Walls<Dim> reachable_walls(const Reference<Dim>& reference, const Scene<Dim>& scene, const RayCaster<Dim>& truth,
                                          const WallOptions& options = {});
 
 /// Share of the walls seen after each of the scans [1]; empty without walls.

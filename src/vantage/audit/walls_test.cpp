@@ -32,9 +32,17 @@ struct World {
     options.rays = 200;
     reference = make_reference(truth, domain, start, options);
   }
-  Walls<Dim> walls(const WallOptions& options = {.places = 4000}) const { return reachable_walls(reference, mesh, truth, domain, options); }
+  Walls<Dim> walls(const WallOptions& options = {.places = 4000}) const { return reachable_walls(reference, scene(), truth, options); }
+  Scene<Dim> scene() const {
+    Scene<Dim> scene;
+    scene.mesh = mesh;
+    scene.domain = domain;
+    scene.parts = parts;
+    return scene;
+  }
 
   Mesh<Dim> mesh;
+  std::vector<typename Scene<Dim>::Part> parts;
   Box<Dim> domain;
   Vec<Dim> start;
   RayCaster<Dim> truth;
@@ -76,6 +84,19 @@ TYPED_TEST(WallsOf, WhatStandsOutsideOrInsideASolidIsLeftOut) {
   const double expected = hull<Dim>(7.4) + hull<Dim>(1.5);
   EXPECT_NEAR(walls.area, expected, 0.01 * expected);
   for (const Vec<Dim>& p : walls.places) EXPECT_FALSE(cube<Dim>(5.3, 6.1).contains(p));
+}
+
+TYPED_TEST(WallsOf, ClutterCountsOnlyWhereAskedFor) {
+  constexpr int Dim = TypeParam::value;
+  Mesh<Dim> mesh;
+  add_box(mesh, cube<Dim>(0.3, 7.7));
+  const auto room = static_cast<std::uint32_t>(mesh.facets.size());
+  add_box(mesh, cube<Dim>(5.0, 6.5));
+  World<Dim> world(mesh, cube<Dim>(0.0, 8.0), place<Dim>(3.5, 3.0));
+  world.parts = {{"wall", 0, room}, {"vehicle", room, room}};
+  EXPECT_NEAR(world.walls().area, hull<Dim>(7.4), 0.02 * hull<Dim>(7.4));
+  const double all = hull<Dim>(7.4) + hull<Dim>(1.5);
+  EXPECT_NEAR(world.walls({.places = 4000, .clutter = true}).area, all, 0.02 * all);
 }
 
 /// In a long corridor the walls are seen from its middle as far as the cosine allows.

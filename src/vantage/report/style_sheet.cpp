@@ -6,11 +6,11 @@ namespace vantage {
 std::string style_sheet() {
   return R"css(
 :root { --paper: #fbfaf8; --card: #ffffff; --plate: #f3f1ec; --ink: #1d2430; --soft: #5a6474; --faint: #e4e1da; --grid: #e9e6df;
-  --c1: #2458c5; --c2: #b4540a; --c3: #0f766e; --c4: #8a2fb0; --c5: #a07800; --c6: #c2185b; --c7: #5d6b1a; --c8: #0881a8;
+  --c1: #2458c5; --c2: #b4540a; --c3: #0f766e; --c4: #8a2fb0; --c5: #a07800; --c6: #7a4a2b; --c7: #5d6b1a; --c8: #0881a8;
   --good: #0f766e; --open: #b4540a; --mark: #d81b4a; --halo: #ffffff; }
 @media (prefers-color-scheme: dark) {
   :root { --paper: #12151b; --card: #191d25; --plate: #0c0e13; --ink: #e9ecf2; --soft: #a3adbd; --faint: #2b313c; --grid: #262c36;
-    --c1: #82aaff; --c2: #f0a35e; --c3: #5eccbc; --c4: #cf9cf0; --c5: #e3c65b; --c6: #ff8ab5; --c7: #b9cb6a; --c8: #6ecbe8;
+    --c1: #82aaff; --c2: #f0a35e; --c3: #5eccbc; --c4: #cf9cf0; --c5: #e3c65b; --c6: #cfa585; --c7: #b9cb6a; --c8: #6ecbe8;
     --good: #5eccbc; --open: #f0a35e; --mark: #ff4d78; --halo: #0c0e13; }
 }
 @media (prefers-color-scheme: dark) {
