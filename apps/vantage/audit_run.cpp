@@ -77,7 +77,6 @@ Json score(const std::filesystem::path& folder, const World& world, const std::s
   RunScore<Dim> score = trial.run(playback, start, options, {.max_scans = log.size(), .observer = &progress});
   Json json{{"scene", trial.scene().name}};
   json.update(run_json(score, walls_seen<Dim>(surface, trial.truth(), score.places)));
-  json["verdict"]["right"] = verdict_right(score.verdict, score.coverage.back());  // What the run's report says, finished or not.
   add_ratios(json, oracles);
   json["reference_m3"] = trial.reference().volume();
   json["surface_m2"] = surface.area;

@@ -82,8 +82,9 @@ std::string score_text(const Json& score, bool with_curves) {
   out += fmt::format("idle picks up to 99 %: {} of {}; falsely free {} m³, falsely hidden {} m³; surface seen {}\n", score.at("idle").get<int>(),
                      score.at("picks").get<int>(), fixed(score.at("false_free_m3"), 2), fixed(score.at("false_hidden_m3"), 2),
                      fixed(score.at("surface_share"), 4));
-  out += fmt::format("verdict: {}, {}: {}\n", verdict.at("complete").get<bool>() ? "complete" : "not complete",
-                     verdict.at("right") == Json(true) ? "right" : "wrong", verdict.at("reason").get<std::string>());
+  const std::string right = verdict.at("right").is_null() ? "" : verdict.at("right") == Json(true) ? ", right" : ", wrong";
+  out += fmt::format("verdict: {}{}: {}\n", verdict.at("complete").get<bool>() ? "complete" : "not complete", right,
+                     verdict.at("reason").get<std::string>());
   if (with_curves) out += curves("this run", score, score.at("oracles"));
   return out;
 }
