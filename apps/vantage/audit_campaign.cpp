@@ -57,6 +57,12 @@ std::string result_line(const Json& run) {
                      run.at("oracles").at(kOracles[0]).at("n99").dump());
 }
 
+/// What the folder has of a scene.
+struct AuditResults {
+  std::vector<Json> starts;  ///< Oracles.
+  std::vector<Json> runs, seconds;
+};
+
 /// One layout of a scene: its files, and what has to be known of it to play what is missing.
 template <int Dim>
 class Layout {
@@ -82,8 +88,8 @@ class Layout {
     }
   }
 
-  /// Results of every start and variant, in this order; ends early when stopped.
-  void play(std::vector<Json>& runs, std::vector<Json>& seconds) {
+  /// Adds the results of every start and variant, in this order, and the oracles of every start; ends early when stopped.
+  void play(AuditResults& results) {
     for (std::int64_t start = 0; start < plan_.starts; ++start) {
       for (std::size_t v = 0; v < plan_.variants.size(); ++v) {
         if (progress_.stop_requested()) return;
@@ -93,8 +99,9 @@ class Layout {
           progress_.found();
         else if (!play(start, v, file, timing))
           return;
-        runs.push_back(kept(file));
-        seconds.push_back(fs::exists(timing) ? kept(timing) : Json{{"seconds", nullptr}});
+        if (v == 0) results.starts.push_back(oracles_at(start));
+        results.runs.push_back(kept(file));
+        if (fs::exists(timing)) results.seconds.push_back(kept(timing));
       }
     }
   }
@@ -109,7 +116,7 @@ class Layout {
     const std::string label = fmt::format("{} start {} {}", spec_, start, plan_.variants[v].name);
     progress_.begin(label + ": the truth");
     know();
-    const Json oracles = oracles_at(start, label);
+    const Json oracles = oracles_at(start);
     progress_.begin(label);
     const std::int64_t cap = cap_of(oracles.at("oracles"), plan_.cap);
     const Clock::time_point begin = Clock::now();
@@ -125,7 +132,7 @@ class Layout {
     Json run{{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"cap", cap}};
     run.update(run_json(score, walls_seen<Dim>(*surface_, trial_->truth(), score.places)));
     run["reference_m3"] = oracles.at("reference_m3");
-    run["oracles"] = oracles.at("oracles");
+    run["oracles"] = scans_of(oracles.at("oracles"));
     keep(timing, {{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"scans", score.places.size()}, {"seconds", seconds}});
     keep(file, run);
     progress_.done(result_line(run));
@@ -149,10 +156,11 @@ class Layout {
   }
 
   /// The oracles of a start, kept for all variants.
-  Json oracles_at(std::int64_t start, const std::string& label) {
+  Json oracles_at(std::int64_t start) {
     const fs::path file = plan_.folder / "oracles" / name(start, "oracles", oracle_crc_);
     if (fs::exists(file)) return kept(file);
-    progress_.begin(label + ": the oracles");
+    progress_.begin(fmt::format("{} start {}: the oracles", spec_, start));
+    know();
     const Vec<Dim>& place = starts_[static_cast<std::size_t>(start)];
     if (table_)
       move_start<Dim>(*table_, {trial_->reference(), trial_->truth(), &*walls_}, place);
@@ -227,21 +235,22 @@ AuditOutcome play_audit(const AuditPlan& plan, AuditProgress& progress) {
   Json scenes = Json::array(), timing = Json::array();
   std::vector<Json> all;
   for (std::size_t s = 0; s < plan.scenes.size() && !progress.stop_requested(); ++s) {
-    std::vector<Json> runs, seconds;
+    AuditResults results;
     for (const std::string& spec : layouts[s]) {
       if (progress.stop_requested()) break;
       const World world = make_world(spec, plan.settings);
-      std::visit([&]<int Dim>(const Scene<Dim>&) { Layout<Dim>(plan, spec, world, progress).play(runs, seconds); }, world.scene);
+      std::visit([&]<int Dim>(const Scene<Dim>&) { Layout<Dim>(plan, spec, world, progress).play(results); }, world.scene);
     }
-    if (runs.empty()) continue;
-    found += static_cast<std::int64_t>(runs.size());
+    if (results.runs.empty()) continue;
+    found += static_cast<std::int64_t>(results.runs.size());
     scenes.push_back({{"scene", plan.scenes[s]},
                       {"layouts", layouts[s]},
-                      {"oracles", oracle_curves(runs)},
-                      {"variants", variants_json(plan, runs)},
-                      {"runs", runs}});
-    timing.push_back({{"scene", plan.scenes[s]}, {"variants", seconds_json(plan, seconds)}, {"runs", seconds}});
-    all.insert(all.end(), runs.begin(), runs.end());
+                      {"oracles", oracle_curves(results.starts)},
+                      {"variants", variants_json(plan, results.runs)},
+                      {"starts", results.starts},
+                      {"runs", results.runs}});
+    timing.push_back({{"scene", plan.scenes[s]}, {"variants", seconds_json(plan, results.seconds)}, {"runs", results.seconds}});
+    all.insert(all.end(), results.runs.begin(), results.runs.end());
   }
   const Json audit{
       {"vantage", kVersion}, {"complete", found == total}, {"plan", plan_json(plan)}, {"all", variants_json(plan, all)}, {"scenes", scenes}};

@@ -27,6 +27,7 @@ template <int Dim>
 Json oracle_json(const SightTable<Dim>& table, const OracleRun& run, bool walls) {
   Json json;
   for (const int share : kShares) json[name_of(share)] = number_or_null(walls ? run.scans_to_both(0.01 * share) : run.scans_to(0.01 * share));
+  json["scans"] = run.places.size();
   json["coverage"] = run.coverage;
   json["walls"] = run.walls;
   Json places = Json::array();
@@ -37,7 +38,7 @@ Json oracle_json(const SightTable<Dim>& table, const OracleRun& run, bool walls)
 
 /// Scans of an oracle to a share; all it takes if it never gets there.
 std::int64_t oracle_scans(const Json& oracle, const std::string& name) {
-  return oracle.at(name).is_null() ? static_cast<std::int64_t>(oracle.at("places").size()) : oracle.at(name).get<std::int64_t>();
+  return oracle.at(oracle.at(name).is_null() ? "scans" : name).get<std::int64_t>();
 }
 
 /// Scans of a run to a share; its cap if it never gets there.
@@ -71,6 +72,15 @@ Json oracles_json(const SightTable<Dim>& table) {
   return {{kOracles[0], oracle_json(table, greedy_oracle(table), false)},
           {kOracles[1], oracle_json(table, greedy_oracle(table, {.from_seen = true}), false)},
           {kOracles[2], oracle_json(table, greedy_oracle(table, {.walls = true}), true)}};
+}
+
+Json scans_of(const Json& oracles) {
+  Json json;
+  for (const char* oracle : kOracles) {
+    for (const int share : kShares) json[oracle][name_of(share)] = oracles.at(oracle).at(name_of(share));
+    json[oracle]["scans"] = oracles.at(oracle).at("scans");
+  }
+  return json;
 }
 
 std::int64_t cap_of(const Json& oracles, double factor) {

@@ -9,9 +9,12 @@
 /// The oracles of a start, by the names under which they stand in the results.
 inline constexpr const char* kOracles[] = {"anywhere", "seen", "walls"};
 
-/// `{"n90", "n95", "n99", "coverage", "walls", "places"}` of each oracle; the one that must see the walls counts both shares.
+/// `{"n90", "n95", "n99", "scans", "coverage", "walls", "places"}` of each oracle; the one that must see the walls counts both shares.
 template <int Dim>
 [[nodiscard]] vantage::Json oracles_json(const vantage::SightTable<Dim>& table);
+
+/// The numbers of scans alone.
+[[nodiscard]] vantage::Json scans_of(const vantage::Json& oracles);
 
 /// How long a run may take: `factor` times the first oracle's scans to 99 %.
 [[nodiscard]] std::int64_t cap_of(const vantage::Json& oracles, double factor);

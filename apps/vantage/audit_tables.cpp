@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "audit_tables.h"
 
-#include <fmt/format.h>
-
-#include <map>
-
 #include "audit_measures.h"
 
 using vantage::Json;
@@ -43,14 +39,11 @@ Json plan_json(const AuditPlan& plan) {
           {"variants", variants}};
 }
 
-Json oracle_curves(const std::vector<Json>& runs) {
-  std::map<std::string, const Json*> starts;  // Whatever the variant.
-  for (const Json& run : runs)
-    starts.emplace(fmt::format("{} {:06}", run.at("scene").get<std::string>(), run.at("start").get<int>()), &run.at("oracles"));
+Json oracle_curves(const std::vector<Json>& starts) {
   Json json = Json::object();
   for (const char* oracle : kOracles) {
     std::vector<std::vector<double>> curves;
-    for (const auto& [start, oracles] : starts) curves.push_back(oracles->at(oracle).at("coverage").get<std::vector<double>>());
+    for (const Json& start : starts) curves.push_back(start.at("oracles").at(oracle).at("coverage").get<std::vector<double>>());
     json[oracle] = mean_curve(curves);
   }
   return json;

@@ -7,8 +7,8 @@
 /// What was asked for, as it stands in audit.json.
 [[nodiscard]] vantage::Json plan_json(const AuditPlan& plan);
 
-/// Mean curve of each oracle over the starts of the runs.
-[[nodiscard]] vantage::Json oracle_curves(const std::vector<vantage::Json>& runs);
+/// Mean curve of each oracle over the starts.
+[[nodiscard]] vantage::Json oracle_curves(const std::vector<vantage::Json>& starts);
 
 /// Sums over the runs of each variant, as sums_json().
 [[nodiscard]] vantage::Json variants_json(const AuditPlan& plan, const std::vector<vantage::Json>& runs);

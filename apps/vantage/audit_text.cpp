@@ -38,11 +38,6 @@ std::string curve(const std::string& name, const Json& places, const Json& cover
   return out;
 }
 
-std::string curves(const std::string& name, const Json& run, const Json& oracles) {
-  return curve(name, run.at("places"), run.at("coverage")) +
-         curve("oracle", oracles.at(kOracles[0]).at("places"), oracles.at(kOracles[0]).at("coverage"));
-}
-
 std::string scans(const Json& n) { return n.is_null() ? "never" : fmt::format("{}", n.get<int>()); }
 
 std::string score_line(const std::string& name, const Json& n) {
@@ -59,10 +54,14 @@ std::string audit_text(const Json& audit, const Json& timing, bool with_curves) 
     for (const auto& [name, sums] : scene.at("variants").items())
       out += line(name, sums, timing.at("scenes")[s].at("variants").value(name, Json(nullptr)));
     if (!with_curves) continue;
-    for (const Json& run : scene.at("runs"))
-      out +=
-          curves(fmt::format("{} start {} {}", run.at("scene").get<std::string>(), run.at("start").get<int>(), run.at("variant").get<std::string>()),
-                 run, run.at("oracles"));
+    for (const Json& start : scene.at("starts")) {
+      const std::string where = fmt::format("{} start {}", start.at("scene").get<std::string>(), start.at("start").get<int>());
+      const Json& oracle = start.at("oracles").at(kOracles[0]);
+      out += curve(where + " oracle", oracle.at("places"), oracle.at("coverage"));
+      for (const Json& run : scene.at("runs"))
+        if (run.at("scene") == start.at("scene") && run.at("start") == start.at("start"))
+          out += curve(where + " " + run.at("variant").get<std::string>(), run.at("places"), run.at("coverage"));
+    }
   }
   if (audit.at("scenes").size() > 1) {
     out += head("all");
@@ -85,6 +84,8 @@ std::string score_text(const Json& score, bool with_curves) {
   const std::string right = verdict.at("right").is_null() ? "" : verdict.at("right") == Json(true) ? ", right" : ", wrong";
   out += fmt::format("verdict: {}{}: {}\n", verdict.at("complete").get<bool>() ? "complete" : "not complete", right,
                      verdict.at("reason").get<std::string>());
-  if (with_curves) out += curves("this run", score, score.at("oracles"));
+  if (!with_curves) return out;
+  const Json& oracle = score.at("oracles").at(kOracles[0]);
+  out += curve("this run", score.at("places"), score.at("coverage")) + curve("oracle", oracle.at("places"), oracle.at("coverage"));
   return out;
 }

@@ -36,6 +36,7 @@ def test_measures_of_a_small_table(table):
     assert audit["complete"] and [scene["scene"] for scene in audit["scenes"]] == ["planar", "discs"]
     assert list(audit["all"]) == ["default", "optimistic", "sight"]
     for scene in audit["scenes"]:
+        (start,) = scene["starts"]
         assert len(scene["runs"]) == 3 and set(scene["oracles"]) == {"anywhere", "seen", "walls"}
         for name, sums in scene["variants"].items():
             assert set(MEASURES) <= set(sums)
@@ -56,7 +57,8 @@ def test_measures_of_a_small_table(table):
             scans = run["picks"] + 1
             assert run["time_s"]["walk"] == pytest.approx(run["path_m"] + 120 * scans)
             assert run["time_s"]["drone"] == pytest.approx(run["path_m"] / 2 + 2 * scans)
-            assert run["places"][0] == oracles["anywhere"]["places"][0]  # The same start.
+            assert run["places"][0] == start["place"] == start["oracles"]["anywhere"]["places"][0]
+            assert oracles["walls"]["n99"] == start["oracles"]["walls"]["n99"]
             assert run["surface"] == sorted(run["surface"]) and 0 < run["surface_share"] == run["surface"][-1] <= 1
             assert run["false_free_m3"] >= 0 and run["false_hidden_m3"] >= 0 and run["thin_recall"] is None
             assert run["verdict"]["right"] in (True, False) if run["verdict"]["finished"] else run["verdict"]["right"] is None

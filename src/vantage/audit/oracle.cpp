@@ -145,6 +145,7 @@ std::optional<std::int64_t> scans_to(std::span<const double> coverage, double sh
 }
 
 std::optional<std::int64_t> OracleRun::scans_to_both(double share) const {
+  if (walls.empty()) return scans_to(share);
   const auto both = std::pair(vantage::scans_to(coverage, share), vantage::scans_to(walls, share));
   if (!both.first || !both.second) return std::nullopt;
   return std::max(*both.first, *both.second);

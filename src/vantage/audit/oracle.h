@@ -27,7 +27,7 @@ struct OracleRun {
   std::vector<double> walls;        ///< Share of the walls seen after each [1]; empty if the table has none.
 
   [[nodiscard]] std::optional<std::int64_t> scans_to(double share) const { return vantage::scans_to(coverage, share); }
-  /// Until the share of the targets and that of the walls are reached.
+  /// Until the share of the targets and that of the walls, if there are any, are reached.
   [[nodiscard]] std::optional<std::int64_t> scans_to_both(double share) const;
 };
 

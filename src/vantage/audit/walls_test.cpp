@@ -174,6 +174,13 @@ TEST(WallOracle, GoesOnForTheWalls) {
   EXPECT_EQ(both.scans_to_both(0.75), 2);
 }
 
+TEST(WallOracle, WithoutWallsItIsTheOther) {
+  const SightTable<2> table = table_of(4, 0, {{{0, 1}, {}}, {{1, 2, 3}, {}}, {{3}, {}}});
+  const OracleRun both = greedy_oracle(table, {.walls = true});
+  EXPECT_EQ(both.places, greedy_oracle(table).places);
+  EXPECT_EQ(both.scans_to_both(0.99), 2);
+}
+
 TEST(WallOracle, NothingBeyondTheGoalIsWorthAScan) {
   // The start sees 3 of 4 targets; with the goal of 3/4 only the walls are left, and the place that sees the last target as well is no better.
   const SightTable<2> table = table_of(4, 2, {{{0, 1, 2}, {}}, {{}, {0, 1}}, {{3}, {0, 1}}, {{3}, {}}});
