@@ -46,8 +46,8 @@ void add_flags(CommandParser& parser, Flags& flags) {
   parser.flag("--scene-start", flags.scene_start, "the first start is the scene's own", what);
   std::string names;
   for (const Variant& variant : built_in_variants()) names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", variant.name, variant.what);
-  parser.option("--variants", flags.variants, "A,B,…", names + "; all; none (default all; of a run folder optimistic,sight)", what);
-  several("--variant", flags.own, "NAME=STAGE.OPTION=VALUE,…", "one more of your own (several: --variant A=… --variant B=…)");
+  parser.option("--variants", flags.variants, "A,B", names + "; all; none (default all; of a run folder optimistic,sight)", what);
+  several("--variant", flags.own, "NAME=STAGE.OPTION=VALUE,..", "one more of your own (several: --variant A=… --variant B=…)");
   several("--set", flags.sets, "STAGE.OPTION=VALUE", "an option of every run; vantage config dump lists them");
   parser.option("--voxel", flags.voxel, "METRES", "lattice spacing of every run (default: the scene's)", what);
   parser.option("--step-deg", flags.step, "DEGREES", "between the sensor's rays", what);

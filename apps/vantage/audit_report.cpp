@@ -160,8 +160,9 @@ std::string method_html(const Json& plan) {
 std::string audit_report(const Json& audit) {
   const Json& plan = audit.at("plan");
   std::string body = fmt::format(
-      "<header><p class=\"eyebrow\">vantage audit</p><h1>How few scans?</h1>\n<p class=\"note\">{}{} starts in each layout.</p></header>\n<main>\n",
-      audit.at("complete") == Json(true) ? "" : "Not complete: the same command goes on. ", plan.at("starts").get<int>());
+      "<header><p class=\"eyebrow\">vantage audit</p><h1>How few scans?</h1>\n<p class=\"note\">{}{} in each layout.</p></header>\n<main>\n",
+      audit.at("complete") == Json(true) ? "" : "Not complete: the same command goes on. ",
+      vantage::counted(plan.at("starts").get<std::int64_t>(), "start", "starts"));
   if (audit.at("scenes").size() > 1)
     body += "<section><h2>All scenes</h2>\n<div style=\"max-width:560px\">" + waste(audit.at("all")) + "</div>\n" + tables(audit.at("all")) +
             "</section>\n";

@@ -103,7 +103,7 @@ std::string grid(const Chart& chart, const Axes& axes) {
 std::string drawn(const Chart& chart, const Curve& curve, const Axes& axes) {
   std::string line, dots;
   double first = kLeft, last = kLeft;
-  const bool sparse = curve.x.size() <= 60;
+  const bool sparse = curve.x.size() <= 60 && axes.x_high - axes.x_low <= 60.0;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (!shown(chart, curve, i)) continue;
     const double x = axes.px(curve.x[i]), y = axes.py(curve.y[i]);
@@ -115,7 +115,7 @@ std::string drawn(const Chart& chart, const Curve& curve, const Axes& axes) {
   }
   if (line.empty()) return {};
   const bool dashed = curve.style == Curve::Style::dashed;
-  std::string svg = fmt::format(R"(<g class="curve{}" style="--c:{}">)", dashed ? " dashed" : "", curve.colour);
+  std::string svg = fmt::format(R"(<g class="curve{}{}" style="--c:{}">)", dashed ? " dashed" : "", sparse ? "" : " dense", curve.colour);
   if (curve.style == Curve::Style::area) {
     svg += fmt::format(R"(<path class="under" d="{}L{:.1f} {:.1f}H{:.1f}Z"/>)", line, last, kHeight - kBottom, first);
   }

@@ -90,6 +90,7 @@ figcaption { margin-top: 14px; color: var(--soft); font-size: 15px; max-width: 6
 .name { fill: var(--c); font-size: 14px; font-weight: 600; }
 .curve path { fill: none; stroke: var(--c); stroke-width: 2.2; stroke-linejoin: round; }
 .curve.dashed path { stroke-dasharray: 7 5; stroke-width: 1.8; } .curve.dashed circle { r: 1.6px; }
+.curve.dense circle { stroke: none; r: 1.2px; }
 .bars text { fill: var(--ink); font-size: 14px; } .bars .soft { fill: var(--soft); } .bars rect { fill: var(--c); }
 .bars path { stroke: var(--ink); stroke-width: 1.6; stroke-dasharray: 4 3; }
 .curve .under { fill: var(--c); stroke: none; opacity: .12; }
