@@ -106,7 +106,7 @@ TEST(Scene, StartIsFreeWithClearance) {
 
 TEST(Scene, DomainCoversTheThings) {
   for_every_scene([]<int Dim>(const Scene<Dim>& scene) {
-    if (scene.name == "office" || scene.name == "patio") return;  // Their buildings go on beyond the domain.
+    if (scene.name == "office" || scene.name == "patio" || scene.name == "floor" || scene.name == "galleries") return;  // Their buildings go on beyond the domain.
     Box<Dim> things;
     for (const auto& part : scene.parts)
       for (std::uint32_t f = part.first; f < part.first + part.count && part.name != "ground"; ++f)
