@@ -11,10 +11,10 @@
 namespace vantage {
 namespace {
 
-constexpr double kTouch = 1e-9;                      // [m]
-constexpr double kJamb = 0.2;                        // Of wall that is left beside a door [m].
-constexpr double kThinnest = 5.0;                    // Block of rooms [m].
-constexpr double kNarrowest = 1.9, kWidest = 2.7;    // Corridors [m].
+constexpr double kTouch = 1e-9;                    // [m]
+constexpr double kJamb = 0.2;                      // Of wall that is left beside a door [m].
+constexpr double kThinnest = 5.0;                  // Block of rooms [m].
+constexpr double kNarrowest = 1.9, kWidest = 2.7;  // Corridors [m].
 
 /// What corridors leave: a part of the storey, and the sides on which a corridor runs beyond the wall.
 struct Block {
@@ -23,7 +23,9 @@ struct Block {
 };
 
 double area(const Block& block) { return block.box.size().prod(); }
-bool touches_corridor(const Block& block, int axis) { return block.corridor[static_cast<std::size_t>(axis)][0] || block.corridor[static_cast<std::size_t>(axis)][1]; }
+bool touches_corridor(const Block& block, int axis) {
+  return block.corridor[static_cast<std::size_t>(axis)][0] || block.corridor[static_cast<std::size_t>(axis)][1];
+}
 
 class Planner {
  public:
@@ -91,7 +93,8 @@ class Planner {
 
   /// Rooms in a block, half of those beside a corridor with a door to it.
   void add_block(const Block& block, int rooms) {
-    const FloorPlan part = plan_rooms(block.box, {.rooms = rooms, .wall = options_.wall, .door = options_.door, .min_side = options_.min_side}, random_);
+    const FloorPlan part =
+        plan_rooms(block.box, {.rooms = rooms, .wall = options_.wall, .door = options_.door, .min_side = options_.min_side}, random_);
     plan_.rooms.insert(plan_.rooms.end(), part.rooms.begin(), part.rooms.end());
     plan_.doors.insert(plan_.doors.end(), part.doors.begin(), part.doors.end());
     std::vector<Box<2>> exits;
