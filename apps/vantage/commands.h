@@ -17,6 +17,7 @@ int publish_command(const Arguments& arguments);
 int reconstruct_command(const Arguments& arguments);
 int scan_command(const Arguments& arguments);
 int scene_command(const Arguments& arguments);
+int survey_command(const Arguments& arguments);
 int visibility_command(const Arguments& arguments);
 
 struct Command {
@@ -31,6 +32,7 @@ inline constexpr Command kCommands[] = {
     {"reconstruct", "CLOUD… -o FILE", "surfaces with a certified error from point clouds", reconstruct_command},
     {"publish", "CLOUD… -o MAP", "scans as deltas of a compact map, to exchange with other vehicles", publish_command},
     {"merge", "MAP… -o FILE", "one map of several, the same bytes in any order", merge_command},
+    {"survey", "SCENE -o DIR", "the fewest stations that measure a place whose map is known, and a tour", survey_command},
     {"visibility", "PATCHES --from x,y,z -o FILE", "what is seen from a place", visibility_command},
     {"paper", "NAME -o DIR", "a table or figure of the paper, made again", paper_command},
     {"scene", "NAME -o FILE | --list", "write a built-in scene, or list them", scene_command},
