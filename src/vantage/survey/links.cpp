@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "vantage/base/parallel.h"
+
 namespace vantage {
 namespace {
 
@@ -13,12 +15,18 @@ bool contains(const Choice& choice, std::size_t candidate) { return std::find(ch
 
 }  // namespace
 
-Links::Links(const CoverProblem& problem, std::size_t count, double share) : share_(share) {
+Links::Links(const CoverProblem& problem, std::size_t count, double share) {
   for (const auto& set : problem.sets) {
     const auto end = std::lower_bound(set.begin(), set.end(), static_cast<std::uint32_t>(count));
     bits_.push_back(as_bits({set.begin(), end}, count));
     size_.push_back(static_cast<std::size_t>(end - set.begin()));
   }
+  if (share <= 0.0) return;
+  links_.assign(size_.size(), std::vector<std::uint64_t>((size_.size() + 63) / 64));
+  parallel_for(links_.size(), 8, [&](std::size_t earlier) {
+    for (std::size_t later = 0; later < size_.size(); ++later)
+      if (overlap(earlier, later) >= share) links_[earlier][later / 64] |= std::uint64_t{1} << (later % 64);
+  });
 }
 
 double Links::overlap(std::size_t earlier, std::size_t later) const {
@@ -52,6 +60,13 @@ Choice Links::unlinked(const Choice& choice) const {
   Choice rest;
   std::copy_if(choice.begin(), choice.end(), std::back_inserter(rest), [&](std::size_t c) { return !contains(most, c); });
   return rest;
+}
+
+Choice Links::roots(const Choice& choice) const {
+  Choice all;
+  for (const std::size_t root : choice)
+    if (reached(choice, root).size() == choice.size()) all.push_back(root);
+  return all;
 }
 
 Choice Links::joined(Choice choice) const {

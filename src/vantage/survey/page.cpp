@@ -108,8 +108,8 @@ std::string curve(const Survey<Dim>& survey) {
     greedy.x.push_back(static_cast<double>(k + 1));
     greedy.y.push_back(100.0 * survey.greedy[k]);
   }
-  return chart_html({"Stations and what they see", "Share of the samples measured once, by the number of stations, the best first.", "stations", "%", false,
-                     0.0, 100.0, 0.0, 0.0, {greedy}});
+  return "<section><div class=\"charts\">\n" + chart_html({"Stations and what they see", "Share of the samples measured once, by the number of stations, the best first.", "stations", "%", false,
+                     0.0, 100.0, 0.0, 0.0, {greedy}}) + "</div></section>\n";
 }
 
 template <int Dim>

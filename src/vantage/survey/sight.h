@@ -23,7 +23,7 @@ struct SurveyOptions {
   double voxel = 0.5;                  ///< Spacing of the lattice of places [m].
   bool volume = false;                 ///< The free space is to be seen too.
   bool come_back = false;              ///< The tour ends where it begins.
-  std::int64_t samples = 30000;        ///< Places drawn on the surface.
+  std::int64_t samples = 10000;        ///< Places drawn on the surface.
   std::int64_t candidates = 1500;      ///< Reachable places drawn; those that see what no other does are added.
   std::int64_t seed = 1;               ///< Of both draws.
 };

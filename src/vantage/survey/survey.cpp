@@ -119,7 +119,12 @@ Choice ordered(const Choice& chosen, const SightLines<Dim>& lines, const Links& 
     return choice;
   };
   const bool ruled = survey.options.overlap > 0.0;
-  const OrderRule rule = [&](const std::vector<std::size_t>& order) { return links.in_order(stations(order)); };
+  const Choice roots = ruled ? links.roots(chosen) : Choice();
+  const OrderRule rule = [&](const std::vector<std::size_t>& order) {
+    const Choice visits = stations(order);
+    const bool begins = visits.empty() || roots.empty() || std::find(roots.begin(), roots.end(), visits[0]) != roots.end();
+    return begins && links.in_order(visits);
+  };
   return stations(tour(travel_table<Dim>(survey.reachable, places), survey.options.come_back, ruled ? rule : OrderRule()));
 }
 
