@@ -36,7 +36,7 @@ constexpr SurveyFlag kFlags[] = {{"--min-range", "METRES", "min_range"}, {"--inc
                                  {"--density", "POINTS", "density"},     {"--cover", "K", "cover"},
                                  {"--overlap", "SHARE", "overlap"},      {"--height", "METRES", "height"},
                                  {"--share", "SHARE", "share"},          {"--samples", "N", "samples"},
-                                 {"--candidates", "N", "candidates"}};
+                                 {"--candidates", "N", "candidates"},     {"--effort", "N", "effort"}};
 
 Option& find_option(std::vector<Option>& options, std::string_view name) {
   return *std::find_if(options.begin(), options.end(), [&](const Option& option) { return option.name == name; });

@@ -218,7 +218,8 @@ void describe(SurveyOptions& o, const OptionVisitor& visit) {
   visit("come_back", o.come_back, "the tour ends where it begins");
   visit("samples", o.samples, "", Range{1, 1e7}, "places drawn on the surface");
   visit("candidates", o.candidates, "", Range{1, 1e6}, "reachable places drawn to choose stations from; some are added");
-  visit("seed", o.seed, "", Range{0, 9e15}, "of both draws");
+  visit("effort", o.effort, "", Range{0, 1e6}, "of the search for fewer stations, in millions of elementary steps: 300 take about a second");
+  visit("seed", o.seed, "", Range{0, 9e15}, "of the draws and the search");
 }
 
 template <int Dim>

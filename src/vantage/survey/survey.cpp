@@ -24,14 +24,15 @@ Reference<Dim> reference_of(const Scene<Dim>& scene, const RayCaster<Dim>& truth
 }
 
 /// The smallest of the choices found: greedy, and greedy by the prices of the bound, which are high where few candidates help; both searched on.
-Choice few_stations(const CoverProblem& problem, CoverBound& bound, std::uint64_t seed) {
-  constexpr std::int64_t kWork = 300'000'000;  // About a second of one core.
+Choice few_stations(const CoverProblem& problem, CoverBound& bound, const SurveyOptions& options) {
+  const std::int64_t work = options.effort * 1'000'000;
+  const auto seed = static_cast<std::uint64_t>(options.seed);
   std::array<Choice, 2> found;
   found[0] = improved(problem, greedy_cover(problem));
   bound = cover_bound(problem, found[0].size());
   if (bound.candidates >= found[0].size()) return found[0];
   found[1] = improved(problem, greedy_cover(problem, bound.prices));
-  parallel_for(found.size(), 1, [&](std::size_t k) { found[k] = weighted_search(problem, found[k], seed, kWork); });
+  parallel_for(found.size(), 1, [&](std::size_t k) { found[k] = weighted_search(problem, found[k], seed, work); });
   return found[found[1].size() < found[0].size() ? 1 : 0];
 }
 
@@ -168,7 +169,7 @@ Survey<Dim> make_survey(const Scene<Dim>& scene, const SurveyOptions& options, O
   enter(observer, "stations");
   CoverBound bound;
   const Links links(lines.problem, lines.walls, options.overlap);
-  Choice chosen = few_stations(lines.problem, bound, static_cast<std::uint64_t>(options.seed));
+  Choice chosen = few_stations(lines.problem, bound, options);
   if (options.overlap > 0.0) chosen = links.joined(std::move(chosen));
   if (options.overlap > 0.0 && links.connected(chosen))
     chosen = improved(lines.problem, std::move(chosen), [&](const Choice& choice) { return links.connected(choice); });

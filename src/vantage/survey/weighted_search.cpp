@@ -12,7 +12,7 @@ namespace {
 class Search {
  public:
   Search(const CoverProblem& problem, const Choice& choice, std::uint64_t seed)
-      : problem_(problem), need_(problem.need), count_(need_.size()), weight_(need_.size(), 1), owners_(need_.size()), random_(seed, 3) {
+      : problem_(problem), need_(problem.need), count_(need_.size()), weight_(need_.size(), 1), owners_(need_.size()), random_(seed, 3), position_(need_.size(), kNone) {
     const std::size_t candidates = problem.sets.size();
     value_.assign(candidates, 0);
     changed_.assign(candidates, 0);
@@ -20,7 +20,6 @@ class Search {
     may_enter_.assign(candidates, 1);
     for (std::size_t c = 0; c < candidates; ++c)
       for (const std::uint32_t i : problem.sets[c]) owners_[i].push_back(c);
-    require_what_is_covered(choice);
     for (std::size_t i = 0; i < need_.size(); ++i)
       if (need_[i] > 0) set_short(static_cast<std::uint32_t>(i));
     for (std::size_t c = 0; c < candidates; ++c)
@@ -31,7 +30,7 @@ class Search {
   Choice run(std::int64_t work) {
     Choice best = chosen_;
     for (spent_ = 0; spent_ < work; ++step_) {
-      if (short_.empty()) {
+      if (short_.size() <= problem_.spare) {
         best = chosen_;
         if (best.empty()) break;
         take_out(cheapest(kNone));
@@ -48,15 +47,6 @@ class Search {
 
  private:
   static constexpr std::size_t kNone = ~std::size_t{0};
-
-  void require_what_is_covered(const Choice& choice) {
-    std::vector<std::uint32_t> times(need_.size());
-    for (const std::size_t c : choice)
-      for (const std::uint32_t i : problem_.sets[c]) ++times[i];
-    for (std::size_t i = 0; i < need_.size(); ++i)
-      if (times[i] < need_[i]) need_[i] = 0;
-    position_.assign(need_.size(), kNone);
-  }
 
   void set_short(std::uint32_t i) {
     position_[i] = short_.size();
