@@ -142,7 +142,9 @@ TEST(Scene, EverySeedOfTheLargeWorldsIsClosedWithAFreeStart) {
       SCOPED_TRACE(spec);
       const auto scene = std::get<Scene<3>>(make_scene(spec));
       for (const auto& part : scene.parts) {
-        if (part.name != "ground") EXPECT_EQ(open_sides(scene.mesh, part.first, part.count), 0) << part.name;
+        if (part.name != "ground") {
+          EXPECT_EQ(open_sides(scene.mesh, part.first, part.count), 0) << part.name;
+        }
       }
       EXPECT_GE(distance_to(scene.mesh, scene.start), scene.clearance);
       EXPECT_EQ(solids_round(scene, scene.start), 0);
