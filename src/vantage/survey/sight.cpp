@@ -30,8 +30,7 @@ std::vector<std::size_t> draw(const std::vector<std::size_t>& all, std::size_t c
 template <int Dim>
 Vec<Dim> facet_normal(const Mesh<Dim>& mesh, std::size_t facet) {
   Eigen::Matrix<double, Dim, Dim> edges;
-  for (int i = 1; i < Dim; ++i)
-    edges.col(i) = mesh.vertices[mesh.facets[facet][static_cast<std::size_t>(i)]] - mesh.vertices[mesh.facets[facet][0]];
+  for (int i = 1; i < Dim; ++i) edges.col(i) = mesh.vertices[mesh.facets[facet][static_cast<std::size_t>(i)]] - mesh.vertices[mesh.facets[facet][0]];
   Vec<Dim> normal;
   for (int a = 0; a < Dim; ++a) {
     edges.col(0) = Vec<Dim>::Unit(a);
@@ -59,6 +58,47 @@ double mesh_content(const Mesh<Dim>& mesh) {
   return sum;
 }
 
+/// Whether p is `height` above what is below it, up to `slack`; always if no height is asked for.
+template <int Dim>
+bool is_high(const RayCaster<Dim>& truth, const Vec<Dim>& p, double height, double slack) {
+  if (height <= 0.0) return true;
+  const double drop = truth.cast(p, -Vec<Dim>::Unit(Dim - 1), height + slack).range;
+  return drop >= height - slack && drop < height + slack;
+}
+
+void require_height(bool holds, const SurveyOptions& options) {
+  require(holds, fmt::format("no reachable place is {} m above what is below it", options.height), "survey.height");
+}
+
+/// The node among `nodes` nearest to p.
+template <int Dim>
+std::size_t nearest_of(const Field<Dim, std::uint8_t>& nodes, const Vec<Dim>& p) {
+  std::size_t best = nodes.values.size();
+  double least = kInfinity;
+  for (std::size_t i = 0; i < nodes.values.size(); ++i) {
+    const double distance = nodes[i] != 0 ? (nodes.window.position(i) - p).squaredNorm() : kInfinity;
+    if (distance < least) least = distance, best = i;
+  }
+  return best;
+}
+
+/// What face steps join to one node.
+template <int Dim>
+Field<Dim, std::uint8_t> joined_to(const Field<Dim, std::uint8_t>& nodes, std::size_t first) {
+  Field<Dim, std::uint8_t> joined(nodes.window);
+  std::vector<std::size_t> queue{first};
+  joined[first] = 1;
+  for (std::size_t k = 0; k < queue.size(); ++k)
+    for (int side = 0; side < 2 * Dim; ++side) {
+      Index<Dim> next = nodes.window.local(queue[k]);
+      next[side / 2] += side % 2 == 0 ? -1 : 1;
+      if (!nodes.window.inside(next) || nodes.at(next) == 0 || joined.at(next) != 0) continue;
+      joined.at(next) = 1;
+      queue.push_back(nodes.window.linear(next));
+    }
+  return joined;
+}
+
 template <int Dim>
 class Builder {
  public:
@@ -66,9 +106,10 @@ class Builder {
       : scene_(scene), truth_(truth), reference_(reference), options_(options), random_(static_cast<std::uint64_t>(options.seed), 1) {}
 
   SightLines<Dim> build() {
+    lines_.ways = find_ways(truth_, reference_, scene_.start, options_);
     collect_demands();
     const auto nodes = standing_nodes();
-    require(!nodes.empty(), fmt::format("no reachable place is {} m above what is below it", options_.height), "survey.height");
+    require_height(!nodes.empty(), options_);
     is_place_.assign(grid().size(), 0);
     for (const std::size_t node : nodes) is_place_[node] = 1;
     for (const std::size_t node : draw(nodes, static_cast<std::size_t>(options_.candidates), random_)) add_candidate(node);
@@ -93,21 +134,15 @@ class Builder {
       lines_.demands.push_back({grid().position(i), Vec<Dim>::Zero()});
   }
 
-  /// Reachable nodes at the height asked for, up to half a spacing.
+  /// Nodes of the ways at the height asked for.
   std::vector<std::size_t> standing_nodes() const {
-    std::vector<std::size_t> reachable;
-    for (std::size_t i = 0; i < grid().size(); ++i)
-      if (reference_.nodes[i].reachable) reachable.push_back(i);
-    if (options_.height <= 0.0) return reachable;
-    const double above = options_.height + 0.5 * grid().spacing, below = options_.height - 0.5 * grid().spacing;
-    std::vector<char> stands(reachable.size());
-    parallel_for(reachable.size(), 256, [&](std::size_t k) {
-      const double drop = truth_.cast(grid().position(reachable[k]), -Vec<Dim>::Unit(Dim - 1), above).range;
-      stands[k] = drop >= below && drop < above ? 1 : 0;
+    std::vector<char> stands(grid().size());
+    parallel_for(stands.size(), 1024, [&](std::size_t i) {
+      stands[i] = lines_.ways.nodes[i] != 0 && is_high(truth_, grid().position(i), options_.height, 0.5 * grid().spacing) ? 1 : 0;
     });
     std::vector<std::size_t> nodes;
-    for (std::size_t k = 0; k < reachable.size(); ++k)
-      if (stands[k]) nodes.push_back(reachable[k]);
+    for (std::size_t i = 0; i < stands.size(); ++i)
+      if (stands[i]) nodes.push_back(i);
     return nodes;
   }
 
@@ -164,7 +199,8 @@ class Builder {
   /// The same for one candidate, its demands in parallel.
   void look_from_last() {
     std::vector<char> seen(lines_.demands.size());
-    parallel_for(seen.size(), 1024, [&](std::size_t i) { seen[i] = measures(truth_, lines_.candidates.back(), lines_.demands[i], options_) ? 1 : 0; });
+    parallel_for(seen.size(), 1024,
+                 [&](std::size_t i) { seen[i] = measures(truth_, lines_.candidates.back(), lines_.demands[i], options_) ? 1 : 0; });
     auto& set = lines_.problem.sets.emplace_back();
     for (std::size_t i = 0; i < seen.size(); ++i)
       if (seen[i]) set.push_back(static_cast<std::uint32_t>(i)), ++seers_[i];
@@ -209,7 +245,8 @@ void describe(SurveyOptions& o, const OptionVisitor& visit) {
   visit("density", o.density, "1/m2", Range{0.0, 1e9}, "least points on a square metre of wall (2D: on a metre) by one scan");
   visit.angle("step_deg", o.step, Range{1e-3, 30.0}, "between the sensor's rays, both ways");
   visit("cover", o.cover, "", Range{1, 64}, "so many stations see each place");
-  visit("overlap", o.overlap, "", Range{0.0, 0.95}, "share of the wall a station sees that one earlier station sees as well, for registration; 0: not asked for");
+  visit("overlap", o.overlap, "", Range{0.0, 0.95},
+        "share of the wall a station sees that one earlier station sees as well, for registration; 0: not asked for");
   visit("height", o.height, "m", Range{0.0, 1e3}, "of the scanner above what is below it, up to half a voxel; 0: any");
   visit("share", o.share, "", Range{0.01, 1.0}, "of all that can be seen within the limits, to be seen");
   visit("clearance", o.clearance, "m", Range{0.0, 1e3}, "of stations and paths to obstacles");
@@ -257,14 +294,30 @@ bool measures(const RayCaster<Dim>& truth, const Vec<Dim>& from, const Demand<Di
 }
 
 template <int Dim>
+Ways<Dim> find_ways(const RayCaster<Dim>& truth, const Reference<Dim>& reference, const Vec<Dim>& start, const SurveyOptions& options) {
+  const Grid<Dim>& grid = reference.nodes.window;
+  Field<Dim, std::uint8_t> nodes(grid);
+  parallel_for(grid.size(), 1024, [&](std::size_t i) {
+    nodes[i] = reference.nodes[i].reachable && is_high(truth, grid.position(i), options.height, grid.spacing) ? 1 : 0;
+  });
+  if (options.height <= 0.0) return {nodes, start};
+  const double drop = truth.cast(start, -Vec<Dim>::Unit(Dim - 1)).range;
+  const Vec<Dim> foot = start - (drop < kInfinity ? drop - options.height : 0.0) * Vec<Dim>::Unit(Dim - 1);
+  const std::size_t first = nearest_of<Dim>(nodes, foot);
+  require_height(first < grid.size(), options);
+  return {joined_to(nodes, first), grid.position(first)};
+}
+
+template <int Dim>
 SightLines<Dim> find_sight_lines(const Scene<Dim>& scene, const RayCaster<Dim>& truth, const Reference<Dim>& reference,
                                  const SurveyOptions& options) {
   return Builder<Dim>(scene, truth, reference, options).build();
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                               \
-  template std::vector<Demand<D>> surface_demands<D>(const Scene<D>&, std::int64_t, std::uint64_t);          \
-  template bool measures<D>(const RayCaster<D>&, const Vec<D>&, const Demand<D>&, const SurveyOptions&);     \
+#define VANTAGE_INSTANTIATE(D)                                                                                  \
+  template Ways<D> find_ways<D>(const RayCaster<D>&, const Reference<D>&, const Vec<D>&, const SurveyOptions&); \
+  template std::vector<Demand<D>> surface_demands<D>(const Scene<D>&, std::int64_t, std::uint64_t);             \
+  template bool measures<D>(const RayCaster<D>&, const Vec<D>&, const Demand<D>&, const SurveyOptions&);        \
   template SightLines<D> find_sight_lines<D>(const Scene<D>&, const RayCaster<D>&, const Reference<D>&, const SurveyOptions&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

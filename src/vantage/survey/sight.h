@@ -17,7 +17,7 @@ struct SurveyOptions {
   double step = radians(0.5);          ///< Between the sensor's rays, both ways [rad].
   std::int64_t cover = 1;              ///< So many stations see each place.
   double overlap = 0.0;                ///< Share of what a station sees that one earlier station sees as well [1]; 0: not asked for.
-  double height = 0.0;                 ///< Of the scanner above what is below it [m]; 0: any.
+  double height = 0.0;                 ///< Of the scanner above what is below it [m]; 0: any, as a drone.
   double share = 1.0;                  ///< Of the demands that must be met [1].
   double clearance = 0.5;              ///< Of stations and paths to obstacles [m].
   double voxel = 0.5;                  ///< Spacing of the lattice of places [m].
@@ -49,10 +49,24 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] bool measures(const RayCaster<Dim>& truth, const Vec<Dim>& from, const Demand<Dim>& demand, const SurveyOptions& options);
 
+/// Where the scanner can be, and where its tour begins.
+template <int Dim>
+  requires SpatialDim<Dim>
+struct Ways {
+  Field<Dim, std::uint8_t> nodes;  ///< Non-zero where it can.
+  Vec<Dim> start;                  ///< [m]
+};
+
+/// All reachable nodes, or with a height those that are so high above what is below them, up to one spacing, and joined to the one nearest below
+/// the start by steps among such nodes: where a person walks with a tripod. Throws bad_input if there is no such node.
+template <int Dim>
+[[nodiscard]] Ways<Dim> find_ways(const RayCaster<Dim>& truth, const Reference<Dim>& reference, const Vec<Dim>& start, const SurveyOptions& options);
+
 /// Stations to choose from, and what each of them sees.
 template <int Dim>
   requires SpatialDim<Dim>
 struct SightLines {
+  Ways<Dim> ways;
   std::vector<Vec<Dim>> candidates;
   std::vector<Demand<Dim>> demands;  ///< Those that some candidate meets; walls first.
   std::size_t walls = 0;             ///< Demands on walls.
@@ -60,9 +74,9 @@ struct SightLines {
   CoverProblem problem;              ///< `need` is less than asked for where too few candidates see a demand.
 };
 
-/// Candidates are drawn one from each of equally long stretches of the reachable nodes that have the height asked for. For every demand that fewer
-/// of them see than asked for, reachable places are looked for along fixed rays from it and added; a demand without any is dropped. Cost: one ray a
-/// pair within the limits. Throws bad_input if no place has the height. Same bits for any number of threads.
+/// Candidates are drawn one from each of equally long stretches of the nodes of the ways, with a height of those that have it up to half a spacing.
+/// For every demand that fewer of them see than asked for, further such places are looked for along fixed rays from it and added; a demand without
+/// any is dropped. Cost: one ray a pair within the limits. Throws bad_input if no place has the height. Same bits for any number of threads.
 template <int Dim>
 [[nodiscard]] SightLines<Dim> find_sight_lines(const Scene<Dim>& scene, const RayCaster<Dim>& truth, const Reference<Dim>& reference,
                                                const SurveyOptions& options);
