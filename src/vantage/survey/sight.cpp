@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/survey/sight.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
 
@@ -56,47 +53,6 @@ double mesh_content(const Mesh<Dim>& mesh) {
   double sum = 0.0;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) sum += facet_normal(mesh, f).norm();
   return sum;
-}
-
-/// Whether p is `height` above what is below it, up to `slack`; always if no height is asked for.
-template <int Dim>
-bool is_high(const RayCaster<Dim>& truth, const Vec<Dim>& p, double height, double slack) {
-  if (height <= 0.0) return true;
-  const double drop = truth.cast(p, -Vec<Dim>::Unit(Dim - 1), height + slack).range;
-  return drop >= height - slack && drop < height + slack;
-}
-
-void require_height(bool holds, const SurveyOptions& options) {
-  require(holds, fmt::format("no reachable place is {} m above what is below it", options.height), "survey.height");
-}
-
-/// The node among `nodes` nearest to p.
-template <int Dim>
-std::size_t nearest_of(const Field<Dim, std::uint8_t>& nodes, const Vec<Dim>& p) {
-  std::size_t best = nodes.values.size();
-  double least = kInfinity;
-  for (std::size_t i = 0; i < nodes.values.size(); ++i) {
-    const double distance = nodes[i] != 0 ? (nodes.window.position(i) - p).squaredNorm() : kInfinity;
-    if (distance < least) least = distance, best = i;
-  }
-  return best;
-}
-
-/// What face steps join to one node.
-template <int Dim>
-Field<Dim, std::uint8_t> joined_to(const Field<Dim, std::uint8_t>& nodes, std::size_t first) {
-  Field<Dim, std::uint8_t> joined(nodes.window);
-  std::vector<std::size_t> queue{first};
-  joined[first] = 1;
-  for (std::size_t k = 0; k < queue.size(); ++k)
-    for (int side = 0; side < 2 * Dim; ++side) {
-      Index<Dim> next = nodes.window.local(queue[k]);
-      next[side / 2] += side % 2 == 0 ? -1 : 1;
-      if (!nodes.window.inside(next) || nodes.at(next) == 0 || joined.at(next) != 0) continue;
-      joined.at(next) = 1;
-      queue.push_back(nodes.window.linear(next));
-    }
-  return joined;
 }
 
 template <int Dim>
@@ -238,27 +194,6 @@ class Builder {
 
 }  // namespace
 
-void describe(SurveyOptions& o, const OptionVisitor& visit) {
-  visit("range", o.range, "m", Range{1e-3, 1e5}, "farthest measurement that counts");
-  visit("min_range", o.min_range, "m", Range{0.0, 1e4}, "nearest one");
-  visit.angle("incidence_deg", o.incidence, Range{1.0, 90.0}, "largest angle between the ray and the wall's normal");
-  visit("density", o.density, "1/m2", Range{0.0, 1e9}, "least points on a square metre of wall (2D: on a metre) by one scan");
-  visit.angle("step_deg", o.step, Range{1e-3, 30.0}, "between the sensor's rays, both ways");
-  visit("cover", o.cover, "", Range{1, 64}, "so many stations see each place");
-  visit("overlap", o.overlap, "", Range{0.0, 0.95},
-        "share of the wall a station sees that one earlier station sees as well, for registration; 0: not asked for");
-  visit("height", o.height, "m", Range{0.0, 1e3}, "of the scanner above what is below it, up to half a voxel; 0: any");
-  visit("share", o.share, "", Range{0.01, 1.0}, "of all that can be seen within the limits, to be seen");
-  visit("clearance", o.clearance, "m", Range{0.0, 1e3}, "of stations and paths to obstacles");
-  visit("voxel", o.voxel, "m", Range{1e-4, 1e4}, "spacing of the lattice of places");
-  visit("volume", o.volume, "the free space is to be seen too");
-  visit("come_back", o.come_back, "the tour ends where it begins");
-  visit("samples", o.samples, "", Range{1, 1e7}, "places drawn on the surface");
-  visit("candidates", o.candidates, "", Range{1, 1e6}, "reachable places drawn to choose stations from; some are added");
-  visit("effort", o.effort, "", Range{0, 1e6}, "of the search for fewer stations, in millions of elementary steps: 300 take about a second");
-  visit("seed", o.seed, "", Range{0, 9e15}, "of the draws and the search");
-}
-
 template <int Dim>
 std::vector<Demand<Dim>> surface_demands(const Scene<Dim>& scene, std::int64_t count, std::uint64_t seed) {
   const double piece = mesh_content(scene.mesh) / static_cast<double>(count);
@@ -294,30 +229,14 @@ bool measures(const RayCaster<Dim>& truth, const Vec<Dim>& from, const Demand<Di
 }
 
 template <int Dim>
-Ways<Dim> find_ways(const RayCaster<Dim>& truth, const Reference<Dim>& reference, const Vec<Dim>& start, const SurveyOptions& options) {
-  const Grid<Dim>& grid = reference.nodes.window;
-  Field<Dim, std::uint8_t> nodes(grid);
-  parallel_for(grid.size(), 1024, [&](std::size_t i) {
-    nodes[i] = reference.nodes[i].reachable && is_high(truth, grid.position(i), options.height, grid.spacing) ? 1 : 0;
-  });
-  if (options.height <= 0.0) return {nodes, start};
-  const double drop = truth.cast(start, -Vec<Dim>::Unit(Dim - 1)).range;
-  const Vec<Dim> foot = start - (drop < kInfinity ? drop - options.height : 0.0) * Vec<Dim>::Unit(Dim - 1);
-  const std::size_t first = nearest_of<Dim>(nodes, foot);
-  require_height(first < grid.size(), options);
-  return {joined_to(nodes, first), grid.position(first)};
-}
-
-template <int Dim>
 SightLines<Dim> find_sight_lines(const Scene<Dim>& scene, const RayCaster<Dim>& truth, const Reference<Dim>& reference,
                                  const SurveyOptions& options) {
   return Builder<Dim>(scene, truth, reference, options).build();
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                  \
-  template Ways<D> find_ways<D>(const RayCaster<D>&, const Reference<D>&, const Vec<D>&, const SurveyOptions&); \
-  template std::vector<Demand<D>> surface_demands<D>(const Scene<D>&, std::int64_t, std::uint64_t);             \
-  template bool measures<D>(const RayCaster<D>&, const Vec<D>&, const Demand<D>&, const SurveyOptions&);        \
+#define VANTAGE_INSTANTIATE(D)                                                                           \
+  template std::vector<Demand<D>> surface_demands<D>(const Scene<D>&, std::int64_t, std::uint64_t);      \
+  template bool measures<D>(const RayCaster<D>&, const Vec<D>&, const Demand<D>&, const SurveyOptions&); \
   template SightLines<D> find_sight_lines<D>(const Scene<D>&, const RayCaster<D>&, const Reference<D>&, const SurveyOptions&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

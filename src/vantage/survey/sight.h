@@ -1,35 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "vantage/audit/reference.h"
-#include "vantage/base/options.h"
-#include "vantage/geometry/angle.h"
 #include "vantage/survey/cover.h"
+#include "vantage/survey/ways.h"
 #include "vantage/world/scene.h"
 
 namespace vantage {
-
-/// What a scan must fulfil to count, and how stations are looked for.
-struct SurveyOptions {
-  double range = 80.0;                 ///< Farthest measurement that counts [m].
-  double min_range = 0.5;              ///< Nearest one [m].
-  double incidence = radians(75.0);    ///< Largest angle between the ray and the wall's normal [rad].
-  double density = 0.0;                ///< Least points on a wall [1/m^(Dim-1)].
-  double step = radians(0.5);          ///< Between the sensor's rays, both ways [rad].
-  std::int64_t cover = 1;              ///< So many stations see each place.
-  double overlap = 0.0;                ///< Share of what a station sees that one earlier station sees as well [1]; 0: not asked for.
-  double height = 0.0;                 ///< Of the scanner above what is below it [m]; 0: any, as a drone.
-  double share = 1.0;                  ///< Of the demands that must be met [1].
-  double clearance = 0.5;              ///< Of stations and paths to obstacles [m].
-  double voxel = 0.5;                  ///< Spacing of the lattice of places [m].
-  bool volume = false;                 ///< The free space is to be seen too.
-  bool come_back = false;              ///< The tour ends where it begins.
-  std::int64_t samples = 10000;        ///< Places drawn on the surface.
-  std::int64_t candidates = 1500;      ///< Reachable places drawn; those that see what no other does are added.
-  std::int64_t effort = 500;           ///< Of the search for fewer stations [million elementary steps].
-  std::int64_t seed = 1;               ///< Of the draws and the search.
-};
-
-void describe(SurveyOptions& options, const OptionVisitor& visit);
 
 /// Something to be seen: a side of a place on a wall, or a place in space (normal zero).
 template <int Dim>
@@ -48,19 +23,6 @@ template <int Dim>
 /// a wall, more above and below the horizon, where the columns are closer.
 template <int Dim>
 [[nodiscard]] bool measures(const RayCaster<Dim>& truth, const Vec<Dim>& from, const Demand<Dim>& demand, const SurveyOptions& options);
-
-/// Where the scanner can be, and where its tour begins.
-template <int Dim>
-  requires SpatialDim<Dim>
-struct Ways {
-  Field<Dim, std::uint8_t> nodes;  ///< Non-zero where it can.
-  Vec<Dim> start;                  ///< [m]
-};
-
-/// All reachable nodes, or with a height those that are so high above what is below them, up to one spacing, and joined to the one nearest below
-/// the start by steps among such nodes: where a person walks with a tripod. Throws bad_input if there is no such node.
-template <int Dim>
-[[nodiscard]] Ways<Dim> find_ways(const RayCaster<Dim>& truth, const Reference<Dim>& reference, const Vec<Dim>& start, const SurveyOptions& options);
 
 /// Stations to choose from, and what each of them sees.
 template <int Dim>
