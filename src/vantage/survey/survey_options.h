@@ -21,7 +21,7 @@ struct SurveyOptions {
   bool volume = false;                 ///< The free space is to be seen too.
   bool come_back = false;              ///< The tour ends where it begins.
   std::int64_t samples = 10000;        ///< Places drawn on the surface.
-  std::int64_t candidates = 1500;      ///< Reachable places drawn; those that see what no other does are added.
+  std::int64_t candidates = 5000;      ///< Reachable places drawn; those that see what no other does are added.
   std::int64_t effort = 500;           ///< Of the search for fewer stations [million elementary steps].
   std::int64_t seed = 1;               ///< Of the draws and the search.
 };
