@@ -159,6 +159,7 @@ int survey_command(const Arguments& arguments) {
   const StopSignals signals;
   std::visit(
       [&]<int Dim>(const Scene<Dim>& scene) {
+        require(options.height <= 0.0 || std::array{false, true}[Dim - 2], "a plane scene has no heights", "--height");
         const Survey<Dim> survey = [&] {
           LineProgress progress(quiet);
           return make_survey(scene_of(scene, world.scenario), options, &progress);

@@ -67,6 +67,7 @@ def test_limits_in_space(vantage):
     (("office", "--height", "-1"), "--height"),
     (("office", "--overlaps", "0.2"), "--overlap"),
     (("floor:rooms=12", "--height", "2.75", *QUICK), "survey.height"),
+    (("office", "--height", "1"), "--height"),
     (("nowhere",), "nowhere"),
 ])  # fmt: skip
 def test_wrong_input_is_one_line(vantage, arguments, says):

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/survey/bound.h"
 #include "vantage/survey/links.h"
@@ -13,8 +14,10 @@
 namespace vantage {
 namespace {
 
-void enter(Observer* observer, std::string_view stage) {
-  if (observer != nullptr) observer->stage(stage);
+void enter(Observer* observer, const std::string& stage) {
+  if (observer == nullptr) return;
+  observer->stage(stage);
+  if (observer->stop_requested()) throw Error(ErrorCode::interrupted, "stopped at " + stage);
 }
 
 template <int Dim>

@@ -246,6 +246,13 @@ TEST(Survey, NobodyWalksOverAWall) {
   for (const auto& station : walking.stations) EXPECT_LT(station.place[0], 9.0);
 }
 
+TEST(Survey, StopsWhenAsked) {
+  struct Impatient final : Observer {
+    bool stop_requested() override { return true; }
+  } observer;
+  EXPECT_THROW(static_cast<void>(make_survey(room<2>(), options_for(80.0), &observer)), Error);
+}
+
 TEST(Survey, WrongOptionsAreNamed) {
   SurveyOptions options;
   options.overlap = 2.0;
