@@ -36,7 +36,7 @@ constexpr SurveyFlag kFlags[] = {{"--min-range", "METRES", "min_range"}, {"--inc
                                  {"--density", "POINTS", "density"},     {"--cover", "K", "cover"},
                                  {"--overlap", "SHARE", "overlap"},      {"--height", "METRES", "height"},
                                  {"--share", "SHARE", "share"},          {"--samples", "N", "samples"},
-                                 {"--candidates", "N", "candidates"},     {"--effort", "N", "effort"}};
+                                 {"--candidates", "N", "candidates"},    {"--effort", "N", "effort"}};
 
 Option& find_option(std::vector<Option>& options, std::string_view name) {
   return *std::find_if(options.begin(), options.end(), [&](const Option& option) { return option.name == name; });
@@ -50,7 +50,8 @@ class SurveyFlags {
     std::vector<Option> options = list_options(defaults);
     for (std::size_t k = 0; k < std::size(kFlags); ++k) {
       const Option& option = find_option(options, kFlags[k].option);
-      parser.option(kFlags[k].name, texts_[k], kFlags[k].type, fmt::format("{} ({}; default {})", option.doc, option.allowed(), option.text()), "Survey");
+      parser.option(kFlags[k].name, texts_[k], kFlags[k].type, fmt::format("{} ({}; default {})", option.doc, option.allowed(), option.text()),
+                    "Survey");
     }
     parser.flag("--volume", volume_, find_option(options, "volume").doc, "Survey");
     parser.flag("--return", come_back_, find_option(options, "come_back").doc, "Survey");
@@ -110,11 +111,12 @@ std::string summary(const Json& json, const std::vector<double>& greedy, const s
                                 json["stations"].get<std::int64_t>(), json["at_least"].get<std::int64_t>(), json["bound"].get<double>());
   out += fmt::format("  measured  {:.2f} % of {} {} of wall that can be, {} samples\n", percent("share"),
                      grouped(static_cast<std::int64_t>(json["wall"].get<double>() + 0.5)), unit, grouped(json["demands"].get<std::int64_t>()));
-  if (percent("seen_by_fewer") > 0.0) out += fmt::format("  thin      {:.2f} % can be seen from fewer places than asked for\n", percent("seen_by_fewer"));
+  if (percent("seen_by_fewer") > 0.0)
+    out += fmt::format("  thin      {:.2f} % can be seen from fewer places than asked for\n", percent("seen_by_fewer"));
   if (!json["linked"].get<bool>()) out += "  overlap   some stations share too little wall with any other; nothing that joins them was found\n";
   if (!greedy.empty() && greedy.back() >= 0.99)
-    out += fmt::format("  by share  {} greedy stations see 90 %, {} 95 %, {} 99 %, {} all, once\n", stations_for(greedy, 0.9), stations_for(greedy, 0.95),
-                       stations_for(greedy, 0.99), greedy.size());
+    out += fmt::format("  by share  {} greedy stations see 90 %, {} 95 %, {} 99 %, {} all, once\n", stations_for(greedy, 0.9),
+                       stations_for(greedy, 0.95), stations_for(greedy, 0.99), greedy.size());
   return out + fmt::format("  path      {:.1f} m\n", json["path_m"].get<double>());
 }
 
@@ -157,6 +159,7 @@ int survey_command(const Arguments& arguments) {
   const StopSignals signals;
   std::visit(
       [&]<int Dim>(const Scene<Dim>& scene) {
+        require(options.height <= 0.0 || std::array{false, true}[Dim - 2], "a plane scene has no heights", "--height");
         const Survey<Dim> survey = [&] {
           LineProgress progress(quiet);
           return make_survey(scene_of(scene, world.scenario), options, &progress);
@@ -166,7 +169,8 @@ int survey_command(const Arguments& arguments) {
         if (json)
           fmt::print("{}", as_text(figures));
         else if (!quiet)
-          fmt::print("{}{}", summary(figures, survey.greedy, std::array{"m", "m²"}[Dim - 2]), folder.empty() ? "" : "report: " + folder + "/report.html\n");
+          fmt::print("{}{}", summary(figures, survey.greedy, std::array{"m", "m²"}[Dim - 2]),
+                     folder.empty() ? "" : "report: " + folder + "/report.html\n");
       },
       world.scene);
   return 0;

@@ -67,7 +67,7 @@ std::vector<double> first_prices(const CoverProblem& problem) {
 }  // namespace
 
 CoverBound cover_bound(const CoverProblem& problem, std::size_t best_known, int steps) {
-  constexpr int kPatience = 15;
+  constexpr int kPatience = 100;
   CoverBound best{0.0, 0, first_prices(problem)};
   std::vector<double> prices = best.prices;
   double stride = 1.5;
@@ -76,7 +76,7 @@ CoverBound cover_bound(const CoverProblem& problem, std::size_t best_known, int 
     ++idle;
     if (dual.value > best.value + 1e-4) idle = 0;
     if (dual.value > best.value) best.value = dual.value, best.prices = prices;
-    if (idle >= kPatience) idle = 0, stride *= 0.6, prices = best.prices;
+    if (idle >= kPatience) idle = 0, stride *= 0.7, prices = best.prices;
     double squares = 0.0;
     for (std::size_t i = 0; i < prices.size(); ++i) squares += prices[i] > 0.0 || dual.slope[i] > 0.0 ? dual.slope[i] * dual.slope[i] : 0.0;
     if (!(squares > 0.0) || best.value > static_cast<double>(best_known) - kSlack) break;

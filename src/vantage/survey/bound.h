@@ -15,6 +15,6 @@ struct CoverBound {
 /// |C| >= sum_i need_i y_i - (the `spare` largest need_i y_i) + sum_j min(0, 1 - sum_{i in set j} y_i);
 /// subgradient steps look for good prices (Held and Karp 1971), with `best_known`, the size of a choice that is known, for the length of the step.
 /// Valid after any number of steps. Same bits for any number of threads.
-[[nodiscard]] CoverBound cover_bound(const CoverProblem& problem, std::size_t best_known, int steps = 400);
+[[nodiscard]] CoverBound cover_bound(const CoverProblem& problem, std::size_t best_known, int steps = 4000);
 
 }  // namespace vantage

@@ -112,8 +112,8 @@ class Reducer {
   const CoverProblem& problem_;
   const Acceptable& acceptable_;
   Choice choice_;
-  std::vector<std::uint32_t> count_;                ///< Chosen candidates that cover a demand.
-  std::vector<std::vector<std::size_t>> owners_;    ///< All candidates that cover it.
+  std::vector<std::uint32_t> count_;              ///< Chosen candidates that cover a demand.
+  std::vector<std::vector<std::size_t>> owners_;  ///< All candidates that cover it.
   std::vector<std::vector<std::uint64_t>> bits_;
   std::vector<bool> required_;
 };

@@ -31,8 +31,9 @@ using Acceptable = std::function<bool(const Choice&)>;
 /// demand that the choice covers stays covered, and an acceptable choice acceptable.
 [[nodiscard]] Choice improved(const CoverProblem& problem, Choice choice, const Acceptable& acceptable = {});
 
-/// A smaller choice that covers what is asked for, as `choice` does, if one is found: takes candidates out one at a time and repairs by others, demands that are hard
-/// to cover weighing more with every step (Gao, Weise and Li 2015). Ends after about `work` elementary steps, so it depends on the arguments alone.
+/// A smaller choice that covers what is asked for, as `choice` does, if one is found: takes candidates out one at a time and repairs by others,
+/// demands that are hard to cover weighing more with every step (Gao, Weise and Li 2015). Ends after about `work` elementary steps, so it depends on
+/// the arguments alone.
 [[nodiscard]] Choice weighted_search(const CoverProblem& problem, const Choice& choice, std::uint64_t seed, std::int64_t work);
 
 /// The demands as bits, 64 a word, for counting what two candidates share.

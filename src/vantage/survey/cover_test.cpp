@@ -27,7 +27,8 @@ CoverProblem random_problem(std::uint64_t seed, std::size_t candidates, std::siz
     for (std::uint32_t i = 0; i < demands; ++i)
       if (random.uniform() < share || c == i % candidates) set.push_back(i), ++owners[i];
   }
-  for (std::size_t i = 0; i < demands; ++i) problem.need.push_back(std::min<std::uint32_t>(owners[i], 1 + static_cast<std::uint32_t>(random.below(3))));
+  for (std::size_t i = 0; i < demands; ++i)
+    problem.need.push_back(std::min<std::uint32_t>(owners[i], 1 + static_cast<std::uint32_t>(random.below(3))));
   problem.spare = random.below(3);
   return problem;
 }

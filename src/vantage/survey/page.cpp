@@ -25,13 +25,27 @@ Vec<2> flat(const Vec<Dim>& p) {
   return p.template head<2>();
 }
 
-/// Where one can be at some height: `seen` on the map, the rest `obstacle`.
+/// The middle one of the stations' heights, as a node of the lattice; other axes mean nothing.
 template <int Dim>
-Field<2, NodeState> plan(const Field<Dim, std::uint8_t>& reachable) {
-  const Grid<Dim>& grid = reachable.window;
-  Field<2, NodeState> map(Grid<2>{grid.spacing, grid.first.template head<2>(), grid.extent.template head<2>()}, NodeState::obstacle);
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    if (reachable[i] != 0) map[i % map.values.size()] = NodeState::seen;
+Index<Dim> middle_level(const Survey<Dim>& survey) {
+  std::vector<Vec<Dim>> places;
+  for (const auto& station : survey.stations) places.push_back(station.place);
+  if (places.empty()) return Index<Dim>::Zero();
+  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+  std::nth_element(places.begin(), middle, places.end(), [](const auto& a, const auto& b) { return a[Dim - 1] < b[Dim - 1]; });
+  return survey.reachable.window.nearest(*middle);
+}
+
+/// Where the scanner can be at that height: `seen` on the map, the rest `obstacle`.
+template <int Dim>
+Field<2, NodeState> plan(const Survey<Dim>& survey) {
+  const Grid<Dim>& grid = survey.reachable.window;
+  Field<2, NodeState> map(Grid<2>{grid.spacing, grid.first.template head<2>(), grid.extent.template head<2>()});
+  Index<Dim> at = middle_level(survey);
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    at.template head<2>() = map.window.local(i);
+    map[i] = survey.reachable.at(at) != 0 ? NodeState::seen : NodeState::obstacle;
+  }
   return map;
 }
 
@@ -62,7 +76,7 @@ double colour_at(std::uint8_t times) { return std::min(1.0, 0.25 + 0.25 * times)
 
 template <int Dim>
 Figure map_figure(const Survey<Dim>& survey) {
-  const Field<2, NodeState> map = plan(survey.reachable);
+  const Field<2, NodeState> map = plan(survey);
   const Camera camera = Camera::map(map_box(map.window), map_frame(kWidth));
   StateColours colours = kLightStates;
   colours.obstacle = mix(colours.obstacle, colours.seen, 0.7);
@@ -70,12 +84,15 @@ Figure map_figure(const Survey<Dim>& survey) {
   parallel_for(survey.seen.size(), 1024, [&](std::size_t i) {
     const Vec<2> p = flat<Dim>(survey.seen[i].place);
     const std::uint8_t times = survey.times[i];
-    raster.point({p[0], p[1], times == 0 ? 1.0 : 0.0}, times == 0 ? 2.5 : 1.7, times == 0 ? kMissed : colour_of(ColourMap::viridis, colour_at(times)));
+    raster.point({p[0], p[1], times == 0 ? 1.0 : 0.0}, times == 0 ? 2.5 : 1.7,
+                 times == 0 ? kMissed : colour_of(ColourMap::viridis, colour_at(times)));
   });
   Image image = state_map(map, camera, colours);
   lay_over(image, resolved(raster, {0.0}));
   Figure figure{"map", "The stations and the tour", {}, {}, {}};
-  figure.caption = "From above: where the scanner can be, the samples of the walls by how many stations measure them, the stations and the way through them.";
+  figure.caption =
+      "From above: where the scanner can be at the middle height of the stations, the samples of the walls by how many stations measure them, the "
+      "stations and the way through them.";
   figure.legend = legend_bar(css_gradient(ColourMap::viridis, colour_at(1), 1.0), "1 station", "3 or more") +
                   legend_entry("dot", css(kMissed), "not measured") + legend_entry("area", css(colours.seen), "reachable") +
                   legend_entry("area", css(colours.obstacle), "not reachable");
@@ -89,14 +106,16 @@ std::string header(const Survey<Dim>& survey, const std::string& scene) {
   const auto entry = [](const std::string& name, const std::string& value, const std::string& note) {
     return fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", escaped(name), escaped(value), escaped(note));
   };
-  std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">Survey of a known place</p>\n<h1>{}</h1>\n", survey.linked ? "done" : "not-done",
-                                 escaped(scene));
-  html += fmt::format("<div class=\"verdict\"><p>{} {} what is asked for{}; no choice among the places looked at needs fewer than {}.</p></div>\n<dl>\n",
-                      counted(count, "station", "stations"), count == 1 ? "measures" : "measure",
-                      survey.linked ? "" : ", but some cannot be joined by the overlap asked for", survey.at_least);
+  std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">Survey of a known place</p>\n<h1>{}</h1>\n",
+                                 survey.linked ? "done" : "not-done", escaped(scene));
+  html +=
+      fmt::format("<div class=\"verdict\"><p>{} {} what is asked for{}; no choice among the places looked at needs fewer than {}.</p></div>\n<dl>\n",
+                  counted(count, "station", "stations"), count == 1 ? "measures" : "measure",
+                  survey.linked ? "" : ", but some cannot be joined by the overlap asked for", survey.at_least);
   html += entry("Stations", number(count), fmt::format("at least {}", survey.at_least));
   html += entry("Way", quantity(survey.length(), "m"), survey.options.come_back ? "and back to the start" : "from the start to the last");
-  html += entry("Wall", quantity(survey.wall, std::array<std::string_view, 2>{"m", "m²"}[Dim - 2]), "some reachable place measures within the limits");
+  html +=
+      entry("Wall", quantity(survey.wall, std::array<std::string_view, 2>{"m", "m²"}[Dim - 2]), "some reachable place measures within the limits");
   html += entry("Measured", percent(survey.share), fmt::format("of {} samples", number(survey.demands)));
   return html + "</dl>\n</header>\n";
 }
@@ -108,8 +127,18 @@ std::string curve(const Survey<Dim>& survey) {
     greedy.x.push_back(static_cast<double>(k + 1));
     greedy.y.push_back(100.0 * survey.greedy[k]);
   }
-  return "<section><div class=\"charts\">\n" + chart_html({"Stations and what they see", "Share of the samples measured once, by the number of stations, the best first.", "stations", "%", false,
-                     0.0, 100.0, 0.0, 0.0, {greedy}}) + "</div></section>\n";
+  return "<section><div class=\"charts\">\n" +
+         chart_html({"Stations and what they see",
+                     "Share of the samples measured once, by the number of stations, the best first.",
+                     "stations",
+                     "%",
+                     false,
+                     0.0,
+                     100.0,
+                     0.0,
+                     0.0,
+                     {greedy}}) +
+         "</div></section>\n";
 }
 
 template <int Dim>

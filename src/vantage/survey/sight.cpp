@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/survey/sight.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
 
@@ -30,8 +27,7 @@ std::vector<std::size_t> draw(const std::vector<std::size_t>& all, std::size_t c
 template <int Dim>
 Vec<Dim> facet_normal(const Mesh<Dim>& mesh, std::size_t facet) {
   Eigen::Matrix<double, Dim, Dim> edges;
-  for (int i = 1; i < Dim; ++i)
-    edges.col(i) = mesh.vertices[mesh.facets[facet][static_cast<std::size_t>(i)]] - mesh.vertices[mesh.facets[facet][0]];
+  for (int i = 1; i < Dim; ++i) edges.col(i) = mesh.vertices[mesh.facets[facet][static_cast<std::size_t>(i)]] - mesh.vertices[mesh.facets[facet][0]];
   Vec<Dim> normal;
   for (int a = 0; a < Dim; ++a) {
     edges.col(0) = Vec<Dim>::Unit(a);
@@ -66,9 +62,10 @@ class Builder {
       : scene_(scene), truth_(truth), reference_(reference), options_(options), random_(static_cast<std::uint64_t>(options.seed), 1) {}
 
   SightLines<Dim> build() {
+    lines_.ways = find_ways(truth_, reference_, scene_.start, options_);
     collect_demands();
     const auto nodes = standing_nodes();
-    require(!nodes.empty(), fmt::format("no reachable place is {} m above what is below it", options_.height), "survey.height");
+    require_height(!nodes.empty(), options_);
     is_place_.assign(grid().size(), 0);
     for (const std::size_t node : nodes) is_place_[node] = 1;
     for (const std::size_t node : draw(nodes, static_cast<std::size_t>(options_.candidates), random_)) add_candidate(node);
@@ -93,21 +90,15 @@ class Builder {
       lines_.demands.push_back({grid().position(i), Vec<Dim>::Zero()});
   }
 
-  /// Reachable nodes at the height asked for, up to half a spacing.
+  /// Nodes of the ways at the height asked for.
   std::vector<std::size_t> standing_nodes() const {
-    std::vector<std::size_t> reachable;
-    for (std::size_t i = 0; i < grid().size(); ++i)
-      if (reference_.nodes[i].reachable) reachable.push_back(i);
-    if (options_.height <= 0.0) return reachable;
-    const double above = options_.height + 0.5 * grid().spacing, below = options_.height - 0.5 * grid().spacing;
-    std::vector<char> stands(reachable.size());
-    parallel_for(reachable.size(), 256, [&](std::size_t k) {
-      const double drop = truth_.cast(grid().position(reachable[k]), -Vec<Dim>::Unit(Dim - 1), above).range;
-      stands[k] = drop >= below && drop < above ? 1 : 0;
+    std::vector<char> stands(grid().size());
+    parallel_for(stands.size(), 1024, [&](std::size_t i) {
+      stands[i] = lines_.ways.nodes[i] != 0 && is_high(truth_, grid().position(i), options_.height, 0.5 * grid().spacing) ? 1 : 0;
     });
     std::vector<std::size_t> nodes;
-    for (std::size_t k = 0; k < reachable.size(); ++k)
-      if (stands[k]) nodes.push_back(reachable[k]);
+    for (std::size_t i = 0; i < stands.size(); ++i)
+      if (stands[i]) nodes.push_back(i);
     return nodes;
   }
 
@@ -164,7 +155,8 @@ class Builder {
   /// The same for one candidate, its demands in parallel.
   void look_from_last() {
     std::vector<char> seen(lines_.demands.size());
-    parallel_for(seen.size(), 1024, [&](std::size_t i) { seen[i] = measures(truth_, lines_.candidates.back(), lines_.demands[i], options_) ? 1 : 0; });
+    parallel_for(seen.size(), 1024,
+                 [&](std::size_t i) { seen[i] = measures(truth_, lines_.candidates.back(), lines_.demands[i], options_) ? 1 : 0; });
     auto& set = lines_.problem.sets.emplace_back();
     for (std::size_t i = 0; i < seen.size(); ++i)
       if (seen[i]) set.push_back(static_cast<std::uint32_t>(i)), ++seers_[i];
@@ -201,26 +193,6 @@ class Builder {
 };
 
 }  // namespace
-
-void describe(SurveyOptions& o, const OptionVisitor& visit) {
-  visit("range", o.range, "m", Range{1e-3, 1e5}, "farthest measurement that counts");
-  visit("min_range", o.min_range, "m", Range{0.0, 1e4}, "nearest one");
-  visit.angle("incidence_deg", o.incidence, Range{1.0, 90.0}, "largest angle between the ray and the wall's normal");
-  visit("density", o.density, "1/m2", Range{0.0, 1e9}, "least points on a square metre of wall (2D: on a metre) by one scan");
-  visit.angle("step_deg", o.step, Range{1e-3, 30.0}, "between the sensor's rays, both ways");
-  visit("cover", o.cover, "", Range{1, 64}, "so many stations see each place");
-  visit("overlap", o.overlap, "", Range{0.0, 0.95}, "share of the wall a station sees that one earlier station sees as well, for registration; 0: not asked for");
-  visit("height", o.height, "m", Range{0.0, 1e3}, "of the scanner above what is below it, up to half a voxel; 0: any");
-  visit("share", o.share, "", Range{0.01, 1.0}, "of all that can be seen within the limits, to be seen");
-  visit("clearance", o.clearance, "m", Range{0.0, 1e3}, "of stations and paths to obstacles");
-  visit("voxel", o.voxel, "m", Range{1e-4, 1e4}, "spacing of the lattice of places");
-  visit("volume", o.volume, "the free space is to be seen too");
-  visit("come_back", o.come_back, "the tour ends where it begins");
-  visit("samples", o.samples, "", Range{1, 1e7}, "places drawn on the surface");
-  visit("candidates", o.candidates, "", Range{1, 1e6}, "reachable places drawn to choose stations from; some are added");
-  visit("effort", o.effort, "", Range{0, 1e6}, "of the search for fewer stations, in millions of elementary steps: 300 take about a second");
-  visit("seed", o.seed, "", Range{0, 9e15}, "of the draws and the search");
-}
 
 template <int Dim>
 std::vector<Demand<Dim>> surface_demands(const Scene<Dim>& scene, std::int64_t count, std::uint64_t seed) {
@@ -262,9 +234,9 @@ SightLines<Dim> find_sight_lines(const Scene<Dim>& scene, const RayCaster<Dim>& 
   return Builder<Dim>(scene, truth, reference, options).build();
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                               \
-  template std::vector<Demand<D>> surface_demands<D>(const Scene<D>&, std::int64_t, std::uint64_t);          \
-  template bool measures<D>(const RayCaster<D>&, const Vec<D>&, const Demand<D>&, const SurveyOptions&);     \
+#define VANTAGE_INSTANTIATE(D)                                                                           \
+  template std::vector<Demand<D>> surface_demands<D>(const Scene<D>&, std::int64_t, std::uint64_t);      \
+  template bool measures<D>(const RayCaster<D>&, const Vec<D>&, const Demand<D>&, const SurveyOptions&); \
   template SightLines<D> find_sight_lines<D>(const Scene<D>&, const RayCaster<D>&, const Reference<D>&, const SurveyOptions&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

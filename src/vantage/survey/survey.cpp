@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/survey/bound.h"
 #include "vantage/survey/links.h"
@@ -13,8 +14,10 @@
 namespace vantage {
 namespace {
 
-void enter(Observer* observer, std::string_view stage) {
-  if (observer != nullptr) observer->stage(stage);
+void enter(Observer* observer, const std::string& stage) {
+  if (observer == nullptr) return;
+  observer->stage(stage);
+  if (observer->stop_requested()) throw Error(ErrorCode::interrupted, "stopped at " + stage);
 }
 
 template <int Dim>
@@ -49,19 +52,6 @@ std::vector<double> greedy_curve(const CoverProblem& problem) {
     curve.push_back(static_cast<double>(count) / static_cast<double>(seen.size()));
   }
   return curve;
-}
-
-/// Reachable nodes; with a height only those a little above it at most, as long as the stations can be got at by these.
-template <int Dim>
-Field<Dim, std::uint8_t> ways(const Reference<Dim>& reference, const RayCaster<Dim>& truth, const SurveyOptions& options) {
-  const Grid<Dim>& grid = reference.nodes.window;
-  const double most = options.height + grid.spacing;
-  Field<Dim, std::uint8_t> free(grid);
-  parallel_for(grid.size(), 1024, [&](std::size_t i) {
-    const bool low = options.height <= 0.0 || truth.cast(grid.position(i), -Vec<Dim>::Unit(Dim - 1), most).range < most;
-    free[i] = reference.nodes[i].reachable && low ? 1 : 0;
-  });
-  return free;
 }
 
 /// Fills in what depends on the chosen stations.
@@ -110,8 +100,8 @@ class Assembler {
 
 /// The order of the tour: the start is place 0 of the table and no station.
 template <int Dim>
-Choice ordered(const Choice& chosen, const SightLines<Dim>& lines, const Links& links, const Survey<Dim>& survey, const Vec<Dim>& start) {
-  std::vector<Vec<Dim>> places{start};
+Choice ordered(const Choice& chosen, const SightLines<Dim>& lines, const Links& links, const Survey<Dim>& survey) {
+  std::vector<Vec<Dim>> places{lines.ways.start};
   for (const std::size_t c : chosen) places.push_back(lines.candidates[c]);
   const auto stations = [&](const std::vector<std::size_t>& order) {
     Choice choice;
@@ -180,9 +170,9 @@ Survey<Dim> make_survey(const Scene<Dim>& scene, const SurveyOptions& options, O
   survey.wall = lines.each * static_cast<double>(lines.walls);
   survey.greedy = greedy_curve(lines.problem);
   enter(observer, "tour");
-  survey.reachable = ways(reference, truth, options);
-  Assembler<Dim>(survey, lines, links).add_stations(ordered(chosen, lines, links, survey, scene.start));
-  survey.legs = legs_through(survey, scene.start);
+  survey.reachable = lines.ways.nodes;
+  Assembler<Dim>(survey, lines, links).add_stations(ordered(chosen, lines, links, survey));
+  survey.legs = legs_through(survey, lines.ways.start);
   return survey;
 }
 
@@ -204,10 +194,10 @@ std::string path_as_csv(const Survey<Dim>& survey) {
   return out;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                    \
-  template struct Survey<D>;                                                                      \
-  template Survey<D> make_survey<D>(const Scene<D>&, const SurveyOptions&, Observer*);            \
-  template std::string stations_as_csv<D>(const Survey<D>&);                                      \
+#define VANTAGE_INSTANTIATE(D)                                                         \
+  template struct Survey<D>;                                                           \
+  template Survey<D> make_survey<D>(const Scene<D>&, const SurveyOptions&, Observer*); \
+  template std::string stations_as_csv<D>(const Survey<D>&);                           \
   template std::string path_as_csv<D>(const Survey<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

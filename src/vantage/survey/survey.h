@@ -41,8 +41,9 @@ struct Survey {
 
 /// The fewest stations that we find, and how few they could be at best. Samples of the walls, and with `volume` of the free space, that some
 /// reachable place measures within the limits are to be measured from as many stations as asked for. Greedy set cover, also with the prices of the
-/// lower bound, the best made smaller (`improved`), joined by overlap where it is asked for, ordered into a tour. `scene.start` is where the tour
-/// begins. Throws bad_input for options out of range or without any reachable place, memory. Same bits for any number of threads.
+/// lower bound, the best made smaller (`improved`), joined by overlap where it is asked for, ordered into a tour. The tour begins
+/// at `scene.start`, with a height below it. Throws bad_input for options out of range or without any reachable place, memory, interrupted when
+/// the observer asks to stop. Same bits for any number of threads.
 template <int Dim>
 [[nodiscard]] Survey<Dim> make_survey(const Scene<Dim>& scene, const SurveyOptions& options, Observer* observer = nullptr);
 

@@ -224,8 +224,33 @@ TEST(Survey, TheScannerStandsAtItsHeight) {
   options.voxel = 0.25;
   const auto survey = make_survey(horseshoe<3>(), options);
   for (const auto& station : survey.stations) EXPECT_NEAR(station.place[2], 1.5, 0.125 + 1e-9);
+  for (const auto& leg : survey.legs) {
+    EXPECT_FALSE(leg.empty());
+    for (const Vec<3>& p : leg) EXPECT_NEAR(p[2], 1.5, 0.25 + 1e-9);
+  }
   options.height = 2.9;
   EXPECT_THROW(static_cast<void>(make_survey(horseshoe<3>(), options)), Error);
+}
+
+TEST(Survey, NobodyWalksOverAWall) {
+  Scene<3> scene = scene_of<3>({over<3>(0.0, 0.0, 20.0, 8.0)});
+  Blocks<3> wall;  // Across the room, 1.4 m high.
+  wall.fill({Vec<3>(9.0, -0.1, -0.1), Vec<3>(9.5, 8.1, 1.4)});
+  wall.append_to(scene.mesh);
+  SurveyOptions options = options_for(80.0);
+  options.voxel = 0.25;
+  const auto flying = make_survey(scene, options);
+  EXPECT_TRUE(std::any_of(flying.stations.begin(), flying.stations.end(), [](const auto& s) { return s.place[0] > 9.5; }));
+  options.height = 1.0;
+  const auto walking = make_survey(scene, options);
+  for (const auto& station : walking.stations) EXPECT_LT(station.place[0], 9.0);
+}
+
+TEST(Survey, StopsWhenAsked) {
+  struct Impatient final : Observer {
+    bool stop_requested() override { return true; }
+  } observer;
+  EXPECT_THROW(static_cast<void>(make_survey(room<2>(), options_for(80.0), &observer)), Error);
 }
 
 TEST(Survey, WrongOptionsAreNamed) {

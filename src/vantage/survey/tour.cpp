@@ -180,7 +180,7 @@ double length_of(std::span<const Vec<Dim>> path) {
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                              \
-  template TravelTable travel_table<D>(const Field<D, std::uint8_t>&, std::span<const Vec<D>>);          \
+  template TravelTable travel_table<D>(const Field<D, std::uint8_t>&, std::span<const Vec<D>>);             \
   template std::vector<Vec<D>> way_between<D>(const Field<D, std::uint8_t>&, const Vec<D>&, const Vec<D>&); \
   template double length_of<D>(std::span<const Vec<D>>);
 VANTAGE_INSTANTIATE(2)

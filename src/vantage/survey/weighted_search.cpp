@@ -12,7 +12,13 @@ namespace {
 class Search {
  public:
   Search(const CoverProblem& problem, const Choice& choice, std::uint64_t seed)
-      : problem_(problem), need_(problem.need), count_(need_.size()), weight_(need_.size(), 1), owners_(need_.size()), random_(seed, 3), position_(need_.size(), kNone) {
+      : problem_(problem),
+        need_(problem.need),
+        count_(need_.size()),
+        weight_(need_.size(), 1),
+        owners_(need_.size()),
+        random_(seed, 3),
+        position_(need_.size(), kNone) {
     const std::size_t candidates = problem.sets.size();
     value_.assign(candidates, 0);
     changed_.assign(candidates, 0);
