@@ -136,9 +136,8 @@ MarchGrid<Dim>::MarchGrid(const Field<Dim, NodeState>& state) : window_(state.wi
   }
   codes_.resize(std::size_t{step} * 64);
   std::array<std::unique_ptr<Rows<Dim>>, 2> rows;
-  parallel_for(2, 1, [&](std::size_t i) {
-    rows[i] = std::make_unique<Rows<Dim>>(nearness_rows(state, i == 0 ? NodeState::seen : NodeState::unseen));
-  });
+  parallel_for(2, 1,
+               [&](std::size_t i) { rows[i] = std::make_unique<Rows<Dim>>(nearness_rows(state, i == 0 ? NodeState::seen : NodeState::unseen)); });
   const std::size_t length = rows[0]->length;
   parallel_for(rows[0]->count(), 256, [&](std::size_t r) {
     const Index<Dim> node = window_.local(r * length);

@@ -64,8 +64,8 @@ class Planner {
   std::vector<Vec<Dim>> visited_;
   Field<Dim, std::uint8_t> reachable_;
   MarchGrid<Dim> grid_;  // Of the last decision's belief.
-  Field<Dim> weight_;  // w per node; empty: 1 everywhere.
-  RaySums scale_;      // Largest of each term over the candidates of the last decision.
+  Field<Dim> weight_;    // w per node; empty: 1 everywhere.
+  RaySums scale_;        // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
   int below_ = 0, idle_ = 0;  // Picks in a row.
 };
