@@ -17,6 +17,7 @@
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
 #include "vantage/belief/belief.h"
+#include "vantage/field/distance.h"
 #include "vantage/planner/candidates.h"
 #include "vantage/planner/planner.h"
 #include "vantage/planner/safe_path.h"
@@ -68,8 +69,9 @@ class Run {
     const Grid<3>& window = belief.view().window();
     const Grid<3> near = intersection(window_over(reach.grown(scan.pattern.max_range), window.spacing), window);
     (void)surface_.insert(hit_points(scan), SurfaceSensor<3>{scan.origin, scan.pattern.step});
-    const auto phi = visibility<3>(surface_.patches(near.bounds().grown(2.0 * near.spacing + scene_.eta)), scan, near, scene_.eta);
-    belief.unite(phi, fill_between_rays(scan, 0.5 * window.spacing));
+    const std::vector<Patch<3>> patches = surface_.patches(near.bounds().grown(2.0 * near.spacing + scene_.eta));
+    const SeenSet<3> seen = seen_by<3>(patches, scan, near, scene_.eta);
+    belief.unite(seen, distance_to_patches<3>(patches, near, belief.known_cap()), fill_between_rays(scan, 0.5 * window.spacing));
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -43,7 +44,7 @@ struct Settings {
   int repeat = 5, scans = 5;
   std::string scene = "town", json;
   double voxel = 0.5;
-  bool peers = true, kernels = true, step = true;
+  bool peers = true, kernels = true, step = true, growth = false;
 };
 
 struct Seconds {
@@ -243,43 +244,139 @@ void accuracies(nlohmann::json& json) {
            [](const Vec<3>& p) { return 0.8 * p.head<2>().norm() - 0.6 * (p[2] + 0.4); });  // Sides only; the tip lies outside what counts.
 }
 
-/// Stages of a step before the planner, walking through a scene; the last line: what the belief keeps.
-void steps(const Settings& s, nlohmann::json& json) {
-  const auto scene = std::get<Scene<3>>(make_scene(s.scene));
-  const Grid<3> window = window_over(scene.domain, s.voxel);
-  SurfaceOptions options;
-  options.eta = scene.eta;
-  HausdorffTree<3> surface(scene.domain, options);
-  SimulatedLidar<3> lidar(scene.mesh, LidarOptions{});
-  Belief<3> belief(window, scene.eta);
-  Vec<3> place = scene.start;
-  fmt::print(
-      "\n`{}`, h = {} m, {} x {} x {} nodes; CPU s\n\n| scan | surface | visibility | belief | kept MB | view MB |\n| --: | --: | --: | --: | --: | "
-      "--: |\n",
-      s.scene, s.voxel, window.extent[0], window.extent[1], window.extent[2]);
-  for (int k = 0; k < s.scans; ++k) {
-    const Scan<3> scan = lidar.scan(place, k);
+/// The stages of a step before the planner, and what they have made so far.
+class Walk {
+ public:
+  Walk(const Scene<3>& scene, double voxel)
+      : scene_(scene),
+        window_(window_over(scene.domain, voxel)),
+        surface_(scene.domain, surface_options(scene)),
+        lidar_(scene.mesh, LidarOptions{}),
+        belief_(window_, scene.eta, scene.clearance) {}
+
+  /// CPU seconds of the stages: surface, visibility, distance, belief.
+  std::array<double, 4> step(const Vec<3>& place) {
+    const Scan<3> scan = lidar_.scan(place, static_cast<std::int64_t>(visited_.size()));
+    visited_.push_back(place);
     Box<3> reach;
     reach.extend(scan.origin);
-    const Grid<3> near = intersection(window_over(reach.grown(scan.pattern.max_range), window.spacing), window);
-    Field<3> phi;
-    const Seconds insert = timed(1, [&] { (void)surface.insert(hit_points(scan), SurfaceSensor<3>{scan.origin, scan.pattern.step}); });
-    const Seconds see =
-        timed(1, [&] { phi = visibility<3>(surface.patches(near.bounds().grown(2.0 * near.spacing + scene.eta)), scan, near, scene.eta); });
-    const Seconds unite = timed(1, [&] { belief.unite(phi, fill_between_rays(scan, 0.5 * window.spacing)); });
-    const double kept = static_cast<double>(belief.kept_bytes()) * 1e-6, view = 9e-6 * static_cast<double>(window.size());
-    fmt::print("| {} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {:.0f} |\n", k, insert.cpu, see.cpu, unite.cpu, kept, view);
-    json["steps"].push_back(
-        {{"surface_cpu_s", insert.cpu}, {"visibility_cpu_s", see.cpu}, {"belief_cpu_s", unite.cpu}, {"kept_mb", kept}, {"view_mb", view}});
-    // On to the farthest clear place within 60 m at the scanner's height.
+    const Grid<3> near = intersection(window_over(reach.grown(scan.pattern.max_range), window_.spacing), window_);
+    std::vector<Patch<3>> patches;
+    SeenSet<3> seen(near);
+    Field<3> known;
+    const Seconds insert = timed(1, [&] { (void)surface_.insert(hit_points(scan), SurfaceSensor<3>{scan.origin, scan.pattern.step}); });
+    const Seconds see = timed(1, [&] {
+      patches = surface_.patches(near.bounds().grown(2.0 * near.spacing + scene_.eta));
+      seen = seen_by<3>(patches, scan, near, scene_.eta);
+    });
+    const Seconds measure = timed(1, [&] { known = distance_to_patches<3>(patches, near, belief_.known_cap()); });
+    const Seconds unite = timed(1, [&] { belief_.unite(seen, known, fill_between_rays(scan, 0.5 * window_.spacing)); });
+    return {insert.cpu, see.cpu, measure.cpu, unite.cpu};
+  }
+
+  /// The clear place at the scanner's height that is farthest from all scans so far, within `reach` of `center`.
+  [[nodiscard]] Vec<3> next(const Vec<3>& center, double reach) const {
+    Vec<3> place = center;
     double farthest = 0.0;
-    const Vec<3> from = place;
-    for (std::size_t i = 0; i < window.size(); i += 37) {
-      const Vec<3> p = window.position(i);
-      const bool clear = belief.view().seen(i) && belief.view().known_distance[i] > 2.0F && std::abs(p[2] - from[2]) < 0.6;
-      if (const double d = (p - from).norm(); clear && d < 60.0 && d > farthest) farthest = d, place = p;
+    for (std::size_t i = 0; i < window_.size(); i += 37) {
+      const Vec<3> p = window_.position(i);
+      if (std::abs(p[2] - scene_.start[2]) > 0.6 || (p - center).norm() > reach || !belief_.view().seen(i)) continue;
+      if (static_cast<double>(belief_.view().known_distance[i]) < belief_.known_cap()) continue;
+      double nearest = kInfinity;
+      for (const Vec<3>& v : visited_) nearest = std::min(nearest, (p - v).norm());
+      if (nearest > farthest) farthest = nearest, place = p;
+    }
+    return place;
+  }
+  [[nodiscard]] const Belief<3>& belief() const { return belief_; }
+
+ private:
+  [[nodiscard]] static SurfaceOptions surface_options(const Scene<3>& scene) {
+    SurfaceOptions options;
+    options.eta = scene.eta;
+    return options;
+  }
+
+  Scene<3> scene_;
+  Grid<3> window_;
+  HausdorffTree<3> surface_;
+  SimulatedLidar<3> lidar_;
+  Belief<3> belief_;
+  std::vector<Vec<3>> visited_;
+};
+
+double sum_of(const std::array<double, 4>& stages) { return stages[0] + stages[1] + stages[2] + stages[3]; }
+
+/// Stages of a step, walking through a scene; then what the belief keeps.
+void steps(const Settings& s, nlohmann::json& json) {
+  const auto scene = std::get<Scene<3>>(make_scene(s.scene));
+  Walk walk(scene, s.voxel);
+  const Grid<3> window = walk.belief().view().window();
+  fmt::print(
+      "\n`{}`, h = {} m, {} x {} x {} nodes; CPU s\n\n| scan | surface | visibility | distance | belief | sum | faces | kept MB | view MB |\n| --: | "
+      "--: | --: | --: | --: | --: | --: | --: | --: |\n",
+      s.scene, s.voxel, window.extent[0], window.extent[1], window.extent[2]);
+  Vec<3> place = scene.start;
+  std::vector<double> sums;
+  for (int k = 0; k < s.scans; ++k, place = walk.next(place, 60.0)) {
+    const std::array<double, 4> cpu = walk.step(place);
+    sums.push_back(sum_of(cpu));
+    const double kept = static_cast<double>(walk.belief().kept_bytes()) * 1e-6, view = 9e-6 * static_cast<double>(window.size());
+    fmt::print("| {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {} | {:.2f} | {:.0f} |\n", k, cpu[0], cpu[1], cpu[2], cpu[3], sums.back(),
+               walk.belief().view().boundary.size(), kept, view);
+    json["steps"].push_back({{"surface_cpu_s", cpu[0]},
+                             {"visibility_cpu_s", cpu[1]},
+                             {"distance_cpu_s", cpu[2]},
+                             {"belief_cpu_s", cpu[3]},
+                             {"kept_mb", kept},
+                             {"view_mb", view}});
+  }
+  std::nth_element(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(sums.size() / 2), sums.end());
+  fmt::print("\nmedian of the sums: {:.3f} CPU s\n", sums[sums.size() / 2]);
+}
+
+/// `tiles` x `tiles` copies of a scene side by side.
+Scene<3> tiled(const Scene<3>& scene, int tiles) {
+  Scene<3> out = scene;
+  out.mesh = {};
+  for (int t = 0; t < tiles * tiles; ++t) {
+    const Vec<3> shift(scene.domain.size()[0] * (t % tiles), scene.domain.size()[1] * (t / tiles), 0.0);
+    const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
+    for (const Vec<3>& v : scene.mesh.vertices) out.mesh.vertices.push_back(v + shift);
+    for (auto facet : scene.mesh.facets) {
+      for (auto& corner : facet) corner += first;
+      out.mesh.facets.push_back(facet);
     }
   }
+  for (int a = 0; a < 2; ++a) out.domain.high[a] = scene.domain.low[a] + scene.domain.size()[a] * tiles;
+  return out;
+}
+
+/// Does a step cost more where the map is larger? A scene 2 x 2 and 4 x 4 times, all of it scanned; then the same scans around the middle of either,
+/// whose surroundings are alike.
+void growth(const Settings& s, nlohmann::json& json) {
+  const auto scene = std::get<Scene<3>>(make_scene(s.scene));
+  constexpr int kScans = 4, kMeasured = 7;
+  std::array<std::vector<double>, 2> sums;
+  fmt::print("\n`{}` repeated, {} scans in each copy, then {} in the middle; CPU s of the steps before the planner\n\n", s.scene, kScans, kMeasured);
+  for (const int tiles : {2, 4}) {
+    const Scene<3> map = tiled(scene, tiles);
+    Walk walk(map, s.voxel);
+    for (int t = 0; t < tiles * tiles; ++t) {
+      Vec<3> place = scene.start + Vec<3>(scene.domain.size()[0] * (t % tiles), scene.domain.size()[1] * (t / tiles), 0.0);
+      for (int k = 0; k < kScans; ++k, place = walk.next(place, 60.0)) (void)walk.step(place);
+    }
+    Vec<3> middle = map.domain.center();
+    middle[2] = scene.start[2];
+    std::vector<double>& mine = sums[tiles == 2 ? 0 : 1];
+    for (int k = 0; k < kMeasured; ++k) mine.push_back(sum_of(walk.step(walk.next(middle, 40.0))));
+    fmt::print("{0} x {0}: {1} nodes, {2:.3f}\n", tiles, walk.belief().view().window().size(), fmt::join(mine, " "));
+  }
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < kMeasured; ++k) ratios.push_back(sums[1][k] / sums[0][k]);
+  std::nth_element(ratios.begin(), ratios.begin() + kMeasured / 2, ratios.end());
+  fmt::print("median ratio {:.3f}\n", ratios[kMeasured / 2]);
+  json["growth_ratio"] = ratios[kMeasured / 2];
 }
 
 int run(int argc, char** argv) {
@@ -295,12 +392,14 @@ int run(int argc, char** argv) {
   app.add_flag("!--no-peers", s.peers, "without SciPy and OpenVDB");
   app.add_flag("!--no-kernels", s.kernels, "without the transforms");
   app.add_flag("!--no-step", s.step, "without the steps");
+  app.add_flag("--growth", s.growth, "steps in a map, and in one four times larger");
   CLI11_PARSE(app, argc, argv);
   nlohmann::json json;
   if (s.kernels) kernels(s, json);
   if (s.peers) peers(s, json);
   if (s.kernels) accuracies(json);
   if (s.step) steps(s, json);
+  if (s.growth) growth(s, json);
   if (!s.json.empty()) std::ofstream(s.json) << json.dump(2) << "\n";
   return 0;
 }

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
@@ -209,6 +210,28 @@ Json classify(const World& world, const Settings& settings, int n) {
             kernel("classify", blocks, image_bytes + 2 * pyramid_bytes + set.bytes(), 16 * opened, 2 * opened)}}};
 }
 
+/// Bounds on the share of the nodes that are seen, from coarse to fine, and the time until then; the last line is node by node.
+Json coarse_to_fine(const World& world, const Settings& settings, int n) {
+  const Grid<3> window = cube(world, settings, n);
+  const Viewpoint<3> view{world.scan.origin, world.scan.pattern.max_range};
+  const DepthImage<3> image = depth_image<3>(world.patches, world.scan, window, world.eta);
+  const DepthPyramid<3> pyramid(image);
+  const auto share = [&](std::size_t nodes) { return static_cast<double>(nodes) / static_cast<double>(window.size()); };
+  Json rows = Json::array();
+  for (int steps = 0; steps < 5; ++steps) {
+    std::optional<GradualView<3>> answer;
+    const double time = seconds(settings.repeats, [&] {
+      answer.emplace(pyramid, view, window);
+      for (int k = 0; k < steps; ++k) answer->refine();
+    });
+    rows.push_back({{"side", answer->side()}, {"low", share(answer->seen_at_least())}, {"high", share(answer->seen_at_most())}, {"seconds", time}});
+  }
+  std::size_t seen = 0;
+  const double time = seconds(settings.repeats, [&] { seen = seen_from(image, view, window).count(); });
+  rows.push_back({{"side", 1}, {"low", share(seen)}, {"high", share(seen)}, {"seconds", time}});
+  return rows;
+}
+
 // ---- Tables ------------------------------------------------------------------------------------------------------------------------------------
 
 void print_rows(const Json& rows) {
@@ -256,6 +279,12 @@ int run(const Settings& settings) {
   }
   fmt::print("\n");
   print_kernels(out["rows"], m);
+  const int most = *std::max_element(settings.nodes.begin(), settings.nodes.end());
+  out["coarse"] = coarse_to_fine(world, settings, most);
+  fmt::print("\ncoarse first, {}^3 nodes: bounds on the share seen\n{:>6} {:>9} {:>9} {:>9}\n", most, "cubes", "at least", "at most", "CPU s");
+  for (const Json& r : out["coarse"])
+    fmt::print("{:>6} {:>8.2f}% {:>8.2f}% {:>9.5f}\n", r["side"].get<int>(), 100.0 * r["low"].get<double>(), 100.0 * r["high"].get<double>(),
+               r["seconds"].get<double>());
   out["exact"] = exact_rays(world, cube(world, settings, settings.peer_nodes), settings.sample);
   fmt::print("\nexact rays against patches, {} nodes: {:.2f} % differ, {} of them by more than half a pixel ({:.2f} deg)\n\n",
              out["exact"]["nodes_asked"].get<int>(), 100.0 * out["exact"]["differ_share"].get<double>(), out["exact"]["beyond_tolerance"].get<int>(),

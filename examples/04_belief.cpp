@@ -8,12 +8,11 @@ using namespace vantage;
 
 namespace {
 
-/// A level set as a scan leaves it: a ball of `radius` around `center` is seen (phi > 0), the rest is not. |phi| is the distance to the nearest known
-/// surface; there is none within 5 m here.
-Field<3> seen_ball(const Grid<3>& window, const Vec<3>& center, double radius) {
-  Field<3> phi(window);
-  for (std::size_t i = 0; i < window.size(); ++i) phi[i] = (window.position(i) - center).norm() < radius ? 5.0F : -5.0F;
-  return phi;
+/// What a scan saw: a ball of `radius` around `center`.
+SeenSet<3> seen_ball(const Grid<3>& window, const Vec<3>& center, double radius) {
+  Field<3, std::uint8_t> seen(window);
+  for (std::size_t i = 0; i < window.size(); ++i) seen[i] = (window.position(i) - center).norm() < radius;
+  return SeenSet<3>(seen);
 }
 
 }  // namespace
@@ -27,7 +26,8 @@ int main() {
   for (const double x : {5.0, 9.0, 15.0}) {
     const Vec<3> center(x, 5.0, 5.0);
     const Grid<3> window = window_over(domain.intersection({center.array() - 4.5, center.array() + 4.5}), 0.25);
-    belief.unite(seen_ball(window, center, 3.0));
+    const Field<3> known_distance(window, 5.0F);  // The nearest known surface is 5 m away.
+    belief.unite(seen_ball(window, center, 3.0), known_distance);
     fmt::print("a ball seen at x = {:4.1f}: {:6.1f} m3 seen in all, {:5.1f} of them new\n", x, belief.seen_volume(), belief.seen_volume() - before);
     before = belief.seen_volume();
   }

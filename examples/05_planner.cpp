@@ -23,7 +23,10 @@ int main() {
     state[i] = wall[i] != 0 ? NodeState::obstacle : seen[i] != 0 ? NodeState::seen : NodeState::unseen;
   }
   const Field<2> psi = signed_distance(seen, 8.0), known_distance = distance_to_set(wall, 8.0);
-  const BeliefView<2> view = {state, psi, known_distance};
+  ShadowBoundary<2> boundary(window);
+  for (std::size_t i = 0; i < window.size(); ++i) boundary.touch(window.local(i));
+  boundary.renew(state, psi, window);
+  const BeliefView<2> view = {state, psi, known_distance, boundary};
 
   Planner<2> planner(PlannerOptions{}, 80.0, 1);
   const Decision<2> next = planner.choose(view, here, 95.0);

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
+#include "vantage/base/random.h"
 
 namespace vantage {
 namespace {
@@ -77,7 +80,33 @@ Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& 
   return {static_cast<double>(seen) / static_cast<double>(reference.counted), static_cast<double>(wrong) * reference.node_volume() * (1 << Dim)};
 }
 
+template <int Dim>
+double falsely_hidden(const Reference<Dim>& reference, const RayCaster<Dim>& truth, const Field<Dim, NodeState>& explored,
+                      std::span<const Vec<Dim>> scans, std::size_t nodes) {
+  const Grid<Dim>& grid = reference.nodes.window;
+  std::vector<std::size_t> counting;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    if (reference.nodes[i].counts()) counting.push_back(i);
+  const std::size_t looked = std::min(nodes, counting.size());
+  Random random(1);
+  for (std::size_t k = 0; k < looked; ++k) {  // One from each of equally long stretches.
+    const std::size_t begin = k * counting.size() / looked, end = (k + 1) * counting.size() / looked;
+    counting[k] = counting[begin + random.below(end - begin)];
+  }
+  std::vector<std::uint8_t> hidden(looked);
+  parallel_for(looked, 64, [&](std::size_t k) {
+    if (called_seen(explored, deciding_node(reference, grid.local(counting[k])))) return;
+    const Vec<Dim> place = grid.position(counting[k]);
+    hidden[k] = std::any_of(scans.begin(), scans.end(),
+                            [&](const Vec<Dim>& from) { return (place - from).norm() <= reference.options.range && in_sight(truth, from, place); });
+  });
+  const auto count = std::count(hidden.begin(), hidden.end(), 1);
+  return reference.volume() * static_cast<double>(count) / static_cast<double>(looked);
+}
+
 template Coverage coverage<2>(const Reference<2>&, const Field<2, NodeState>&);
 template Coverage coverage<3>(const Reference<3>&, const Field<3, NodeState>&);
+template double falsely_hidden<2>(const Reference<2>&, const RayCaster<2>&, const Field<2, NodeState>&, std::span<const Vec<2>>, std::size_t);
+template double falsely_hidden<3>(const Reference<3>&, const RayCaster<3>&, const Field<3, NodeState>&, std::span<const Vec<3>>, std::size_t);
 
 }  // namespace vantage

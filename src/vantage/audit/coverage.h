@@ -16,4 +16,10 @@ struct Coverage {
 template <int Dim>
 [[nodiscard]] Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& explored);
 
+/// Part of the reference volume that the true line of sight of one of the scans reaches and that is not called seen, told from at most `nodes` of
+/// its nodes [m^Dim].
+template <int Dim>
+[[nodiscard]] double falsely_hidden(const Reference<Dim>& reference, const RayCaster<Dim>& truth, const Field<Dim, NodeState>& explored,
+                                    std::span<const Vec<Dim>> scans, std::size_t nodes = 20000);
+
 }  // namespace vantage

@@ -92,5 +92,23 @@ TYPED_TEST(CoverageOf, WindowOfTheMapMayDiffer) {
   EXPECT_THROW((void)coverage(e.reference, Field<Dim, NodeState>(window_over(e.domain, 0.25))), Error);
 }
 
+/// A sight of the truth that the map does not know is falsely hidden; what no scan had in sight is not.
+TYPED_TEST(CoverageOf, InSightButNotSeenIsFalselyHidden) {
+  constexpr int Dim = TypeParam::value;
+  Explored<Dim> e;
+  const std::vector<Vec<Dim>> scans{place<Dim>(2.0, 2.0)};
+  std::size_t in_view = 0;
+  for (std::size_t i = 0; i < e.reference.nodes.values.size(); ++i)
+    in_view += e.reference.nodes[i].counts() && in_sight(e.truth, scans[0], e.reference.nodes.window.position(i)) ? 1 : 0;
+  ASSERT_LT(in_view, e.reference.counted);
+  const auto hidden = [&](std::size_t nodes) { return falsely_hidden<Dim>(e.reference, e.truth, e.map, scans, nodes); };
+  const double expected = static_cast<double>(in_view) * e.reference.node_volume();
+  EXPECT_NEAR(hidden(e.reference.counted), expected, 1e-9);
+  EXPECT_NEAR(hidden(1000), expected, 0.1 * expected);
+  e.see([](const Vec<Dim>&) { return true; });
+  EXPECT_EQ(hidden(1000), 0.0);
+  EXPECT_EQ(falsely_hidden<Dim>(e.reference, e.truth, Field<Dim, NodeState>(e.map.window, NodeState::unseen), {}), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,138 +4,80 @@
 #include <algorithm>
 #include <bit>
 
-#include "vantage/base/parallel.h"
-#include "vantage/base/random.h"
-
 namespace vantage {
 namespace {
 
-/// `count` of `all`, in their order, one drawn from each of as many equal stretches; all of them if there are no more.
-std::vector<std::size_t> draw(const std::vector<std::size_t>& all, std::size_t count, Random& random) {
-  if (all.size() <= count) return all;
-  std::vector<std::size_t> drawn;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t begin = k * all.size() / count, end = (k + 1) * all.size() / count;
-    drawn.push_back(all[begin + random.below(end - begin)]);
-  }
-  return drawn;
-}
-
-template <int Dim, class Predicate>
-std::vector<std::size_t> nodes_where(const Reference<Dim>& reference, Predicate&& predicate) {
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < reference.nodes.values.size(); ++i)
-    if (predicate(reference.nodes[i])) all.push_back(i);
-  return all;
-}
-
-/// Draws the places, then fills the table.
-template <int Dim>
-class TableBuilder {
+/// Columns of one kind, and which of them are left to see.
+class Left {
  public:
-  TableBuilder(const Reference<Dim>& reference, const RayCaster<Dim>& truth, const OracleOptions& options)
-      : reference_(reference), truth_(truth), options_(options), random_(static_cast<std::uint64_t>(options.seed)) {}
-
-  SightTable<Dim> build(const Vec<Dim>& start) {
-    const Grid<Dim>& grid = reference_.nodes.window;
-    for (const std::size_t i :
-         draw(nodes_where(reference_, [](const Truth& t) { return t.counts(); }), static_cast<std::size_t>(options_.targets), random_))
-      targets_.push_back(grid.position(i));
-    table_.targets = targets_.size();
-    table_.candidates.push_back(start);
-    const auto reachable = nodes_where(reference_, [](const Truth& t) { return t.reachable; });
-    for (const std::size_t i : draw(reachable, static_cast<std::size_t>(options_.candidates), random_)) table_.candidates.push_back(grid.position(i));
-    look_at_targets(0);
-    add_missing_views();
-    look_at_places();
-    return std::move(table_);
+  /// Not more than `needed` columns are worth anything.
+  Left(std::size_t count, std::int64_t needed)
+      : count_(static_cast<std::int64_t>(count)), needed_(needed), bits_((count + 63) / 64, ~std::uint64_t{0}) {
+    if (count % 64 != 0) bits_.back() = (std::uint64_t{1} << (count % 64)) - 1;
   }
+
+  [[nodiscard]] std::int64_t fresh(const std::vector<std::uint64_t>& row) const {
+    std::int64_t total = 0;
+    for (std::size_t w = 0; w < bits_.size(); ++w) total += std::popcount(row[w] & bits_[w]);
+    return total;
+  }
+  [[nodiscard]] std::int64_t gain(const std::vector<std::uint64_t>& row) const {
+    return covered_ >= needed_ ? 0 : std::min(fresh(row), needed_ - covered_);
+  }
+  void take(const std::vector<std::uint64_t>& row) {
+    covered_ += fresh(row);
+    for (std::size_t w = 0; w < bits_.size(); ++w) bits_[w] &= ~row[w];
+  }
+  [[nodiscard]] std::int64_t count() const { return count_; }
+  [[nodiscard]] double share() const { return static_cast<double>(covered_) / static_cast<double>(count_); }
 
  private:
-  bool sees(const Vec<Dim>& from, const Vec<Dim>& to) const { return (to - from).norm() <= reference_.options.range && in_sight(truth_, from, to); }
-
-  void look_at_targets(std::size_t first) {
-    table_.rows.resize(table_.candidates.size(), std::vector<std::uint64_t>((targets_.size() + 63) / 64));
-    parallel_for(table_.candidates.size() - first, 1, [&](std::size_t k) {
-      for (std::size_t t = 0; t < targets_.size(); ++t)
-        if (sees(table_.candidates[first + k], targets_[t])) table_.rows[first + k][t / 64] |= std::uint64_t{1} << (t % 64);
-    });
-  }
-
-  std::vector<std::size_t> unseen_targets() const {
-    std::vector<std::uint64_t> any((targets_.size() + 63) / 64);
-    for (const auto& row : table_.rows)
-      for (std::size_t w = 0; w < any.size(); ++w) any[w] |= row[w];
-    std::vector<std::size_t> unseen;
-    for (std::size_t t = 0; t < targets_.size(); ++t)
-      if ((any[t / 64] >> (t % 64) & 1U) == 0) unseen.push_back(t);
-    return unseen;
-  }
-
-  /// Places that see targets none of the candidates sees, 32 at a time since one of them sees many.
-  void add_missing_views() {
-    const auto directions = fixed_directions<Dim>(reference_.options.rays);
-    const std::size_t limit = 2 * table_.candidates.size();
-    for (auto unseen = unseen_targets(); !unseen.empty() && table_.candidates.size() < limit; unseen = unseen_targets()) {
-      const std::vector<std::size_t> tried = draw(unseen, std::min<std::size_t>(32, limit - table_.candidates.size()), random_);
-      std::vector<std::optional<std::size_t>> views(tried.size());
-      parallel_for(tried.size(), 1, [&](std::size_t k) { views[k] = find_view<Dim>(reference_, truth_, targets_[tried[k]], directions); });
-      const std::size_t first = table_.candidates.size();
-      for (const auto& view : views)
-        if (view) table_.candidates.push_back(reference_.nodes.window.position(*view));
-      if (table_.candidates.size() == first) break;
-      look_at_targets(first);
-    }
-  }
-
-  void look_at_places() {
-    const std::size_t count = table_.candidates.size(), columns = table_.targets + count;
-    for (auto& row : table_.rows) row.resize((columns + 63) / 64);
-    parallel_for(count, 1, [&](std::size_t c) {
-      for (std::size_t other = 0; other < count; ++other) {
-        const std::size_t column = table_.targets + other;
-        if (sees(table_.candidates[c], table_.candidates[other])) table_.rows[c][column / 64] |= std::uint64_t{1} << (column % 64);
-      }
-    });
-  }
-
-  const Reference<Dim>& reference_;
-  const RayCaster<Dim>& truth_;
-  OracleOptions options_;
-  Random random_;
-  std::vector<Vec<Dim>> targets_;
-  SightTable<Dim> table_;
+  std::int64_t count_, needed_, covered_ = 0;
+  std::vector<std::uint64_t> bits_;
 };
+
+/// Fewest columns of `count` that are the share `goal`.
+std::int64_t needed(std::size_t count, double goal) {
+  const auto all = static_cast<double>(count);
+  auto least = static_cast<std::int64_t>(goal * all);
+  while (static_cast<double>(least) / all < goal) ++least;
+  return least;
+}
 
 /// What is left to see, and which places may be chosen.
 template <int Dim>
 class Cover {
  public:
-  explicit Cover(const SightTable<Dim>& table) : table_(table), left_((table.targets + 63) / 64, ~std::uint64_t{0}), seen_(table.candidates.size()) {
-    if (table.targets % 64 != 0) left_.back() = (std::uint64_t{1} << (table.targets % 64)) - 1;
-  }
+  Cover(const SightTable<Dim>& table, const GreedyOptions& options)
+      : table_(table),
+        with_walls_(options.walls && table.walls > 0),
+        targets_(table.targets, with_walls_ ? needed(table.targets, options.goal) : static_cast<std::int64_t>(table.targets)),
+        walls_(table.walls, needed(table.walls, options.goal)),
+        seen_(table.candidates.size()) {}
 
+  /// Newly seen targets; with walls the sum of both shares, in units of 1/(targets walls).
   [[nodiscard]] std::int64_t gain(std::size_t candidate) const {
-    std::int64_t total = 0;
-    for (std::size_t w = 0; w < left_.size(); ++w) total += std::popcount(table_.rows[candidate][w] & left_[w]);
-    return total;
+    const std::int64_t targets = targets_.gain(table_.rows[candidate]);
+    return with_walls_ ? targets * walls_.count() + walls_.gain(table_.wall_rows[candidate]) * targets_.count() : targets;
   }
   [[nodiscard]] bool place_seen(std::size_t candidate) const { return seen_[candidate]; }
 
   void take(std::size_t candidate, OracleRun& run) {
-    covered_ += gain(candidate);
-    for (std::size_t w = 0; w < left_.size(); ++w) left_[w] &= ~table_.rows[candidate][w];
+    targets_.take(table_.rows[candidate]);
     for (std::size_t other = 0; other < seen_.size(); ++other)
       if (table_.sees_place(candidate, other)) seen_[other] = true;
     run.places.push_back(candidate);
-    run.coverage.push_back(static_cast<double>(covered_) / static_cast<double>(table_.targets));
+    run.coverage.push_back(targets_.share());
+    if (table_.walls == 0) return;
+    walls_.take(table_.wall_rows[candidate]);
+    run.walls.push_back(walls_.share());
   }
 
  private:
   const SightTable<Dim>& table_;
-  std::vector<std::uint64_t> left_;
+  bool with_walls_;
+  Left targets_, walls_;
   std::vector<bool> seen_;
-  std::int64_t covered_ = 0;
 };
 
 struct Entry {
@@ -196,28 +138,23 @@ class LazyChoice {
 
 }  // namespace
 
-void describe(OracleOptions& o, const OptionVisitor& visit) {
-  visit("targets", o.targets, "", Range{1, 1e8}, "reference nodes the oracle looks at");
-  visit("candidates", o.candidates, "", Range{1, 1e6}, "reachable places the oracle may scan from");
-  visit("seed", o.seed, "", Range{0, 9e15}, "of the choice of both");
-}
-
 std::optional<std::int64_t> scans_to(std::span<const double> coverage, double share) {
   const auto first = std::find_if(coverage.begin(), coverage.end(), [share](double c) { return c >= share; });
   if (first == coverage.end()) return std::nullopt;
   return first - coverage.begin() + 1;
 }
 
-template <int Dim>
-SightTable<Dim> make_sight_table(const Reference<Dim>& reference, const RayCaster<Dim>& truth, const Vec<Dim>& start, const OracleOptions& options) {
-  check_options(options, "audit.oracle");
-  return TableBuilder<Dim>(reference, truth, options).build(start);
+std::optional<std::int64_t> OracleRun::scans_to_both(double share) const {
+  if (walls.empty()) return scans_to(share);
+  const auto both = std::pair(vantage::scans_to(coverage, share), vantage::scans_to(walls, share));
+  if (!both.first || !both.second) return std::nullopt;
+  return std::max(*both.first, *both.second);
 }
 
 template <int Dim>
 OracleRun greedy_oracle(const SightTable<Dim>& table, const GreedyOptions& options) {
   OracleRun run;
-  Cover<Dim> cover(table);
+  Cover<Dim> cover(table, options);
   cover.take(0, run);
   const std::size_t count = table.candidates.size();
   LazyChoice<Dim> lazy(cover, count);
@@ -226,10 +163,6 @@ OracleRun greedy_oracle(const SightTable<Dim>& table, const GreedyOptions& optio
   return run;
 }
 
-template struct SightTable<2>;
-template struct SightTable<3>;
-template SightTable<2> make_sight_table<2>(const Reference<2>&, const RayCaster<2>&, const Vec<2>&, const OracleOptions&);
-template SightTable<3> make_sight_table<3>(const Reference<3>&, const RayCaster<3>&, const Vec<3>&, const OracleOptions&);
 template OracleRun greedy_oracle<2>(const SightTable<2>&, const GreedyOptions&);
 template OracleRun greedy_oracle<3>(const SightTable<3>&, const GreedyOptions&);
 

@@ -36,7 +36,7 @@ struct World {
     options.targets = targets;
     options.candidates = candidates;
     options.seed = seed;
-    return make_sight_table(reference, truth, start, options);
+    return make_sight_table<Dim>({reference, truth}, start, options);
   }
 
   Vec<Dim> start = place<Dim>(3.5, 3.0);

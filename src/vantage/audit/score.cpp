@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/audit/score.h"
 
+#include <algorithm>
+
 #include "vantage/audit/coverage.h"
+#include "vantage/base/error.h"
 
 namespace vantage {
 namespace {
@@ -25,20 +28,23 @@ bool verdict_right(const Verdict<Dim>& verdict, double true_share) {
 template <int Dim>
 RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits) {
   RunScore<Dim> score;
+  double best = 0.0;
   const auto enough = [&] {
-    return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans ||
-           (!score.coverage.empty() && score.coverage.back() >= limits.coverage);
+    if (best >= limits.coverage) return !limits.to_the_end;
+    return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans;
   };
   while (!explorer.finished() && !enough()) {
     const StepRecord<Dim>& step = explorer.step();
     const Coverage now = coverage(reference, explorer.states());
     score.places.push_back(step.vantage);
-    score.path_length += step.path_length;
+    score.path.push_back((score.path.empty() ? 0.0 : score.path.back()) + step.path_length);
     score.coverage.push_back(now.fraction);
     score.falsely_free = now.falsely_free;
+    best = std::max(best, now.fraction);
+    if (limits.observer != nullptr && limits.observer->stop_requested()) throw Error(ErrorCode::interrupted, "stopped");
   }
   score.finished = explorer.finished();
-  if (score.finished) score.verdict = explorer.verdict();
+  score.verdict = explorer.verdict();
   score.verdict_right = score.finished && !score.coverage.empty() && verdict_right(score.verdict, score.coverage.back());
   return score;
 }

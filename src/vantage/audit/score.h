@@ -11,13 +11,15 @@ namespace vantage {
 template <int Dim>
   requires SpatialDim<Dim>
 struct RunScore {
-  std::vector<Vec<Dim>> places;  ///< Of the scans, in their order [m].
-  std::vector<double> coverage;  ///< Share of the reference set seen after each [1].
-  double falsely_free = 0.0;     ///< At the end, see Coverage [m^Dim].
-  double path_length = 0.0;      ///< [m]
-  bool finished = false;         ///< The explorer ended by itself; only then is there a verdict to judge.
-  Verdict<Dim> verdict;          ///< What it said at its end.
-  bool verdict_right = false;    ///< See verdict_right().
+  std::vector<Vec<Dim>> places;       ///< Of the scans, in their order [m].
+  std::vector<double> coverage;       ///< Share of the reference set seen after each [1].
+  std::vector<double> path;           ///< Way up to each [m].
+  double falsely_free = 0.0;          ///< At the end, see Coverage [m^Dim].
+  double falsely_hidden = 0.0;        ///< At the end, see falsely_hidden(); only of a trial [m^Dim].
+  bool finished = false;              ///< The explorer ended by itself, or at its own limit.
+  Verdict<Dim> verdict;               ///< What it said at the end.
+  bool verdict_right = false;         ///< See verdict_right(); false if it has not finished.
+  std::optional<double> thin_recall;  ///< See ThinParts; only of a trial [1].
 
   [[nodiscard]] std::optional<std::int64_t> scans_to(double share) const { return vantage::scans_to(coverage, share); }
 };
@@ -25,7 +27,9 @@ struct RunScore {
 /// When to stop stepping although the explorer has not finished.
 struct ScoreLimits {
   std::int64_t max_scans = std::numeric_limits<std::int64_t>::max();
-  double coverage = 2.0;  ///< Enough is seen; above 1: never.
+  double coverage = 2.0;         ///< Enough is seen; above 1: never.
+  bool to_the_end = false;       ///< Where enough is seen, go on until the explorer finishes; then max_scans limits only the way up to there.
+  Observer* observer = nullptr;  ///< May stop it.
 };
 
 /// Scans after the first, up to the one that reaches 99 %, that added less than 0.1 % of the reference set.
@@ -35,7 +39,7 @@ struct ScoreLimits {
 template <int Dim>
 [[nodiscard]] bool verdict_right(const Verdict<Dim>& verdict, double true_share);
 
-/// Steps the explorer to its end or a limit and judges the map after every scan.
+/// Steps the explorer to its end or a limit and judges the map after every scan. Throws interrupted when the observer asks to stop.
 template <int Dim>
 [[nodiscard]] RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits = {});
 

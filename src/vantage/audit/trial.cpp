@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/audit/trial.h"
 
+#include "vantage/audit/coverage.h"
 #include "vantage/base/random.h"
 
 namespace vantage {
@@ -14,6 +15,22 @@ ReferenceOptions reference_options(const TrialOptions& options) {
   o.range = options.lidar.pattern.max_range;
   return o;
 }
+
+/// Passes scans on and shows their returns to the thin parts.
+template <int Dim>
+class Watched final : public Sensor<Dim> {
+ public:
+  Watched(Sensor<Dim>& inner, ThinParts<Dim>& thin) : inner_(inner), thin_(thin) {}
+  [[nodiscard]] Scan<Dim> scan(const Vec<Dim>& vantage_point, int index) override {
+    Scan<Dim> scan = inner_.scan(vantage_point, index);
+    if (!thin_.empty()) thin_.observe(hit_points(scan));
+    return scan;
+  }
+
+ private:
+  Sensor<Dim>& inner_;
+  ThinParts<Dim>& thin_;
+};
 
 }  // namespace
 
@@ -31,7 +48,7 @@ TrialOptions trial_options(const Scene<Dim>& scene) {
 template <int Dim>
   requires SpatialDim<Dim>
 Trial<Dim>::Trial(const Scene<Dim>& scene, const TrialOptions& options)
-    : scene_(scene), truth_(scene.mesh), reference_(make_reference(truth_, scene.domain, scene.start, reference_options(options))) {}
+    : scene_(scene), truth_(scene.mesh), reference_(make_reference(truth_, scene.domain, scene.start, reference_options(options))), thin_(scene) {}
 
 template <int Dim>
   requires SpatialDim<Dim>
@@ -47,16 +64,33 @@ std::vector<Vec<Dim>> Trial<Dim>::starts(std::int64_t count, std::int64_t seed) 
 
 template <int Dim>
   requires SpatialDim<Dim>
-SightTable<Dim> Trial<Dim>::sight_table(const Vec<Dim>& start, const OracleOptions& options) const {
-  return make_sight_table(reference_, truth_, start, options);
+Walls<Dim> Trial<Dim>::walls(const WallOptions& options) const {
+  return reachable_walls(reference_, scene_, truth_, options);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+SightTable<Dim> Trial<Dim>::sight_table(const Vec<Dim>& start, const OracleOptions& options, const Walls<Dim>* walls) const {
+  return make_sight_table<Dim>({reference_, truth_, walls}, start, options);
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
 RunScore<Dim> Trial<Dim>::run(const Vec<Dim>& start, const TrialOptions& options, const ScoreLimits& limits) const {
   SimulatedLidar<Dim> lidar(scene_.mesh, options.lidar);
-  Explorer<Dim> explorer(lidar, scene_.domain, start, options.explore);
-  return score_run(explorer, reference_, limits);
+  return run(lidar, start, options, limits);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+RunScore<Dim> Trial<Dim>::run(Sensor<Dim>& sensor, const Vec<Dim>& start, const TrialOptions& options, const ScoreLimits& limits) const {
+  ThinParts<Dim> thin = thin_;
+  Watched<Dim> watched(sensor, thin);
+  Explorer<Dim> explorer(watched, scene_.domain, start, options.explore, limits.observer);
+  RunScore<Dim> score = score_run(explorer, reference_, limits);
+  score.falsely_hidden = falsely_hidden<Dim>(reference_, truth_, explorer.states(), score.places);
+  if (!thin.empty()) score.thin_recall = thin.recall(explorer.surface().patches());
+  return score;
 }
 
 template TrialOptions trial_options<2>(const Scene<2>&);

@@ -61,16 +61,17 @@ std::vector<Index<Dim>> steps_within(double reach) {
 
 template <int Dim>
   requires SpatialDim<Dim>
-Belief<Dim>::Belief(const Grid<Dim>& window, double eta)
-    : eta_(eta),
-      obstacle_distance_(std::max(eta, 0.5 * std::sqrt(static_cast<double>(Dim)) * window.spacing)),
+Belief<Dim>::Belief(const Grid<Dim>& window, double eta, double known_cap)
+    : obstacle_distance_(std::max(eta, 0.5 * std::sqrt(static_cast<double>(Dim)) * window.spacing)),
       cap_(kCapCells * window.spacing),
+      known_cap_(std::max({known_cap, 2.0 * window.spacing, obstacle_distance_})),
       seen_(window),
-      wall_distance_(window, static_cast<float>(cap_)) {
+      wall_distance_(window, static_cast<float>(known_cap_)),
+      boundary_(window) {
   require_memory(static_cast<double>(window.size()), 24.0, "the lattice");
   state_ = Field<Dim, NodeState>(window, NodeState::unseen);
   psi_ = Field<Dim>(window, static_cast<float>(-cap_));
-  known_distance_ = Field<Dim>(window, static_cast<float>(cap_));
+  known_distance_ = Field<Dim>(window, static_cast<float>(known_cap_));
 }
 
 template <int Dim>
@@ -103,73 +104,109 @@ Grid<Dim> Belief<Dim>::add_walls(std::span<const Vec<Dim>> walls) {
 
 template <int Dim>
   requires SpatialDim<Dim>
-void Belief<Dim>::unite(const Field<Dim>& phi, std::span<const Vec<Dim>> walls) {
-  const auto limit = static_cast<float>(cap_), tolerance = static_cast<float>(eta_);
-  seen_.add(phi);
-  const Grid<Dim> walled = add_walls(walls), common = intersection(phi.window, state_.window);
-  for_common(common, phi.window, state_.window,
-             [&](std::size_t from, std::size_t to) { known_distance_[to] = std::min(std::abs(phi[from]) + tolerance, limit); });
-  Grid<Dim> changed = judge(common);
-  if (!(intersection(walled, common) == walled)) changed = hull(changed, judge(walled));
-  redistance_around(changed);
+void Belief<Dim>::unite(const SeenSet<Dim>& seen, const Field<Dim>& known, std::span<const Vec<Dim>> walls) {
+  require(seen.window() == known.window, "belief: what is seen and the known distance must share a window");
+  const auto limit = static_cast<float>(known_cap_);
+  seen_.unite(seen);
+  const Grid<Dim> walled = add_walls(walls), common = intersection(known.window, state_.window);
+  for_common(common, known.window, state_.window, [&](std::size_t from, std::size_t to) { known_distance_[to] = std::min(known[from], limit); });
+  Change change = judge(common);
+  if (!(intersection(walled, common) == walled)) {
+    const Change more = judge(walled);
+    change = {hull(change.nodes, more.nodes), change.seen + more.seen};
+  }
+  seen_nodes_ += change.seen;
+  boundary_.renew(state_, psi_, hull(hull(common, walled), redistance_around(change.nodes)));
 }
 
-/// Settles the known distance and the state of the nodes of `part`; the smallest window of those seen before or now, but not both.
+/// Settles the known distance and the state of a row of `part`. First and last place that was seen before or is now, but not both, and how many more
+/// are seen.
 template <int Dim>
   requires SpatialDim<Dim>
-Grid<Dim> Belief<Dim>::judge(const Grid<Dim>& part) {
-  const Grid<Dim>& window = state_.window;
-  const auto length = static_cast<std::size_t>(part.extent[0]), rows = length > 0 ? part.size() / length : 0;
+std::int64_t Belief<Dim>::judge_row(const Grid<Dim>& part, std::size_t row, std::array<std::size_t, 2>& changed) {
+  const auto length = static_cast<std::size_t>(part.extent[0]);
   const auto obstacle = static_cast<float>(obstacle_distance_);
-  std::vector<std::array<std::size_t, 2>> changed(rows, {length, 0});  // First and last place of a row.
-  parallel_chunks(rows, 256, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint8_t> seen(length);
-    for (std::size_t row = begin; row < end; ++row) {
-      Index<Dim> node = part.local(row * length) + part.first - window.first;
-      const std::size_t first = window.linear(node);
-      seen_.read_row(node, seen);
-      for (std::size_t k = 0; k < length;) {
-        const float* wall = wall_distance_.run(node);
-        const std::size_t until = std::min(length, k + static_cast<std::size_t>(Walls::kSide - node[0] % Walls::kSide));
-        node[0] += static_cast<std::int32_t>(until - k);
-        for (; k < until; ++k) {
-          float& known = known_distance_[first + k];
-          if (wall != nullptr) known = std::min(known, *wall++);
-          const NodeState now = known <= obstacle ? NodeState::obstacle : static_cast<NodeState>(seen[k]);
-          NodeState& state = state_[first + k];
-          if ((now == NodeState::seen) != (state == NodeState::seen)) changed[row] = {std::min(changed[row][0], k), k};
-          state = now;
-        }
+  std::vector<std::uint8_t> seen(length);
+  Index<Dim> node = part.local(row * length) + part.first - state_.window.first;
+  const std::size_t first = state_.window.linear(node);
+  seen_.read_row(node, seen);
+  std::int64_t more = 0;
+  for (std::size_t k = 0; k < length;) {
+    const float* wall = wall_distance_.run(node);
+    const std::size_t until = std::min(length, k + static_cast<std::size_t>(Walls::kSide - node[0] % Walls::kSide));
+    for (; k < until; ++k, ++node[0]) {
+      float& known = known_distance_[first + k];
+      if (wall != nullptr) known = std::min(known, *wall++);
+      const NodeState now = known <= obstacle ? NodeState::obstacle : static_cast<NodeState>(seen[k]);
+      NodeState& state = state_[first + k];
+      if (now == state) continue;
+      if ((now == NodeState::seen) != (state == NodeState::seen)) {
+        changed = {std::min(changed[0], k), k};
+        more += now == NodeState::seen ? 1 : -1;
       }
+      state = now;
+      boundary_.touch(node);
     }
-  });
-  Grid<Dim> out{window.spacing, part.first, Index<Dim>::Zero()};
-  for (std::size_t row = 0; row < rows; ++row)
-    for (const std::size_t k : changed[row])
-      if (changed[row][0] < length) out = hull(out, Grid<Dim>{window.spacing, part.first + part.local(row * length + k), Index<Dim>::Ones()});
+  }
+  return more;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+auto Belief<Dim>::judge(const Grid<Dim>& part) -> Change {
+  const auto length = static_cast<std::size_t>(part.extent[0]), rows = length > 0 ? part.size() / length : 0;
+  std::vector<std::array<std::size_t, 2>> places(rows, {length, 0});
+  std::vector<std::int64_t> more(rows);
+  parallel_for(rows, 256, [&](std::size_t row) { more[row] = judge_row(part, row, places[row]); });
+  Change out{Grid<Dim>{part.spacing, part.first, Index<Dim>::Zero()}};
+  for (std::size_t row = 0; row < rows; ++row) {
+    out.seen += more[row];
+    for (const std::size_t k : places[row])
+      if (places[row][0] < length)
+        out.nodes = hull(out.nodes, Grid<Dim>{part.spacing, part.first + part.local(row * length + k), Index<Dim>::Ones()});
+  }
   return out;
 }
 
+/// Renews psi within the cap of `changed`; the window of where that is.
 template <int Dim>
   requires SpatialDim<Dim>
-void Belief<Dim>::redistance_around(const Grid<Dim>& changed) {
-  if (changed.size() == 0) return;
+Grid<Dim> Belief<Dim>::redistance_around(const Grid<Dim>& changed) {
+  if (changed.size() == 0) return changed;
   // A change reaches as far as the cap; what is within the cap of that must be known to compute it.
   const Grid<Dim> renewed = intersection(padded(changed, kCapCells), state_.window);
   const Grid<Dim> needed = intersection(padded(changed, 2 * kCapCells), state_.window);
   Field<Dim, std::uint8_t> inside(needed);
   for_common(needed, needed, state_.window, [&](std::size_t to, std::size_t from) { inside[to] = state_[from] == NodeState::seen; });
   const Field<Dim> psi = signed_distance(inside, cap_);
-  for_common(renewed, psi.window, psi_.window, [&](std::size_t from, std::size_t to) { psi_[to] = psi[from]; });
+  const auto length = static_cast<std::size_t>(renewed.extent[0]);
+  constexpr auto kSide = static_cast<std::size_t>(ShadowBoundary<Dim>::kSide);
+  const auto near = static_cast<float>(ShadowBoundary<Dim>::kReach * state_.window.spacing);
+  parallel_for(renewed.size() / length, 256, [&](std::size_t row) {
+    Index<Dim> node = renewed.local(row * length) + renewed.first - state_.window.first;
+    const float* from = psi.values.data() + row_start(renewed, psi.window, row);
+    float* to = psi_.values.data() + state_.window.linear(node);
+    for (std::size_t k = 0; k < length;) {
+      const std::size_t count = std::min(length - k, kSide - static_cast<std::size_t>(node[0]) % kSide);
+      bool matters = false;
+      for (std::size_t i = k; i < k + count; ++i) {
+        matters |= from[i] != to[i] && std::min(std::abs(from[i]), std::abs(to[i])) < near;
+        to[i] = from[i];
+      }
+      if (matters) boundary_.touch(node);
+      k += count;
+      node[0] += static_cast<std::int32_t>(count);
+    }
+  });
+  return renewed;
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
 double Belief<Dim>::seen_volume() const {
-  const auto nodes = std::count(state_.values.begin(), state_.values.end(), NodeState::seen);
-  double cell = 1.0;
-  for (int a = 0; a < Dim; ++a) cell *= state_.window.spacing;
-  return static_cast<double>(nodes) * cell;
+  double volume = static_cast<double>(seen_nodes_);
+  for (int a = 0; a < Dim; ++a) volume *= state_.window.spacing;
+  return volume;
 }
 
 template class Belief<2>;

@@ -8,6 +8,7 @@
 
 #include "vantage/base/error.h"
 #include "vantage/belief/belief.h"
+#include "vantage/field/distance.h"
 #include "vantage/planner/planner.h"
 #include "vantage/scan/fill.h"
 
@@ -98,7 +99,7 @@ struct Explorer<Dim>::Impl {
         domain(d),
         window(lattice(d, start, o)),
         surface(d, o.surface),
-        belief(window, o.surface.eta),
+        belief(window, o.surface.eta, o.planner.clearance),
         vantage_point(start) {
     check_options(options.visibility, "visibility");
     check_options(options.planner, "planner");
@@ -124,12 +125,14 @@ struct Explorer<Dim>::Impl {
     const Grid<Dim> near = window_of(scan);
     const SurfaceUpdate<Dim> update =
         timed("surface", [&] { return surface.insert(hit_points(scan), SurfaceSensor<Dim>{scan.origin, scan.pattern.step}); });  // Sec. IV-A
-    const Field<Dim> phi = timed("visibility", [&] {                                                                             // Sec. IV-B
-      const std::vector<Patch<Dim>> patches = surface.patches(near.bounds().grown(2.0 * near.spacing + eta));
-      return visibility<Dim>(patches, scan, near, eta, options.visibility);
+    std::vector<Patch<Dim>> patches;
+    const SeenSet<Dim> seen = timed("visibility", [&] {  // Sec. IV-B: phi, its sign and its distance apart
+      patches = surface.patches(near.bounds().grown(2.0 * near.spacing + eta));
+      return seen_by<Dim>(patches, scan, near, eta, options.visibility);
     });
     timed("belief", [&] {  // psi <- max(psi, phi), redistance
-      belief.unite(phi, options.fill ? fill_between_rays(scan, 0.5 * window.spacing) : std::vector<Vec<Dim>>{});
+      const std::vector<Vec<Dim>> walls = options.fill ? fill_between_rays(scan, 0.5 * window.spacing) : std::vector<Vec<Dim>>{};
+      belief.unite(seen, distance_to_patches<Dim>(patches, near, belief.known_cap()), walls);
     });
     if (!planner) planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
     record.seen_volume = belief.seen_volume();

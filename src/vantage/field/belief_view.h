@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "vantage/field/field.h"
+#include "vantage/field/shadow_boundary.h"
 
 namespace vantage {
 
@@ -11,6 +11,7 @@ struct BeliefView {
   const Field<Dim, NodeState>& state;
   const Field<Dim>& psi;             ///< Signed distance to the occlusion set's boundary, > 0 where seen, capped [m].
   const Field<Dim>& known_distance;  ///< To the known surface, capped [m].
+  const ShadowBoundary<Dim>& boundary;
 
   [[nodiscard]] const Grid<Dim>& window() const { return state.window; }
   [[nodiscard]] bool seen(std::size_t node) const { return state[node] == NodeState::seen; }

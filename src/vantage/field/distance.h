@@ -23,7 +23,8 @@ template <int Dim>
 [[nodiscard]] Field<Dim> distance_to_set(const Field<Dim, std::uint8_t>& set, double cap = std::numeric_limits<float>::max());
 
 /// Distance from every node to the nearest patch, at most `cap` [m]. Exact for nodes within half a cell diagonal of a patch, and every place on a
-/// patch has such a node; beyond, exact to the patch that is nearest to the nearest of them, which errs upwards by less than one diagonal.
+/// patch in the window has such a node; beyond, exact to the patch that is nearest to the nearest of them, which errs upwards by less than one
+/// diagonal. Small caps cost in proportion to the nodes near the patches.
 template <int Dim>
   requires SpatialDim<Dim>
 [[nodiscard]] Field<Dim> distance_to_patches(std::span<const Patch<Dim>> patches, const Grid<Dim>& window,

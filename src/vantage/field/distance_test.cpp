@@ -57,6 +57,28 @@ TYPED_TEST(Distance, EqualsExhaustiveSearch) {
   }
 }
 
+/// Small caps look around the nodes near the patches only; the answer is that of looking everywhere, to the bit.
+TYPED_TEST(Distance, CapOnPatchDistancesOnlyCutsThem) {
+  constexpr int Dim = TypeParam::value;
+  Random random(11);
+  Grid<Dim> window = odd_window<Dim>();
+  window.extent *= 2;
+  const Box<Dim> box = window.bounds();
+  std::vector<Patch<Dim>> patches;
+  for (int k = 0; k < 12; ++k) {
+    Patch<Dim> patch;
+    patch.count = 1 + k % 2;
+    for (int v = 0; v < patch.count; ++v) patch.vertices[static_cast<std::size_t>(v)] = random_place<Dim>(box, random);
+    patches.push_back(patch);
+  }
+  const Field<Dim> all = distance_to_patches<Dim>(patches, window);
+  for (const double steps : {0.3, 1.0, 2.0, 3.7, 5.0, 9.0}) {
+    const double cap = steps * window.spacing;
+    const Field<Dim> capped = distance_to_patches<Dim>(patches, window, cap);
+    for (std::size_t i = 0; i < all.values.size(); ++i) ASSERT_EQ(capped[i], std::min(all[i], static_cast<float>(cap))) << steps;
+  }
+}
+
 TYPED_TEST(Distance, EmptySetGivesTheCapAndNoSite) {
   constexpr int Dim = TypeParam::value;
   const Field<Dim, std::uint8_t> none(odd_window<Dim>());

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "vantage/base/parallel.h"
-#include "vantage/field/stencil.h"
 
 namespace vantage {
 namespace {
@@ -18,41 +17,6 @@ constexpr std::array<double, 8> kPriorByEvidence{1, .8, .4, .15, .05, .2, .05, .
 template <std::size_t N>
 std::uint8_t bin_of(double value, const std::array<double, N>& edges) {
   return static_cast<std::uint8_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
-}
-
-template <int Dim>
-std::uint64_t key(const BoundaryFace<Dim>& face) {
-  return face.seen * 2 * Dim + static_cast<std::size_t>(face.direction);
-}
-
-/// Faces of the seen nodes [begin, end) with unseen ones, far enough from the known surface to be worth a thought.
-template <int Dim>
-std::vector<BoundaryFace<Dim>> faces_of(const BeliefView<Dim>& view, const Field<Dim>& smoothed, std::size_t begin, std::size_t end) {
-  const Grid<Dim>& grid = view.window();
-  std::vector<BoundaryFace<Dim>> faces;
-  for (std::size_t p = begin; p < end; ++p) {
-    if (!view.seen(p) || static_cast<double>(view.psi[p]) > 0.6 * grid.spacing) continue;
-    const Index<Dim> here = grid.local(p);
-    for (int direction = 0; direction < 2 * Dim; ++direction) {
-      Index<Dim> there = here;
-      there[direction / 2] += direction % 2 == 0 ? 1 : -1;
-      if (!grid.inside(there)) continue;
-      const std::size_t n = grid.linear(there);
-      if (view.state[n] != NodeState::unseen) continue;
-      BoundaryFace<Dim> face;
-      face.known_distance = std::min(view.known_distance[p], view.known_distance[n]);
-      if (face.known_distance < 0.4 * grid.spacing) continue;
-      face.seen = p;
-      face.unseen = n;
-      face.direction = direction;
-      face.center = 0.5 * (grid.position(here) + grid.position(there));
-      const Vec<Dim> slope = gradient(smoothed, here) + gradient(smoothed, there);
-      const double length = slope.norm();
-      face.normal = length > 1e-9 ? Vec<Dim>(slope / length) : face.step();
-      faces.push_back(face);
-    }
-  }
-  return faces;
 }
 
 }  // namespace
@@ -97,17 +61,17 @@ void OpeningModel<Dim>::learn(const RayMarch<Dim>& rays, const BeliefView<Dim>& 
 template <int Dim>
   requires SpatialDim<Dim>
 void OpeningModel<Dim>::list_faces(const BeliefView<Dim>& view) {
-  using Faces = std::vector<BoundaryFace<Dim>>;
-  const Field<Dim> smoothed = smooth(view.psi, 4);
-  Faces faces = parallel_reduce(
-      view.window().size(), std::size_t{1} << 15, Faces{}, [&](std::size_t begin, std::size_t end) { return faces_of(view, smoothed, begin, end); },
-      [](Faces& all, Faces part) { all.insert(all.end(), part.begin(), part.end()); });
+  std::vector<BoundaryFace<Dim>> faces;
+  faces.reserve(view.boundary.size());
+  view.boundary.for_faces([&](const ShadowFace<Dim>& face) {
+    faces.push_back({face, static_cast<double>(std::min(view.known_distance[face.seen], view.known_distance[face.unseen]))});
+  });
   // What earlier observers made of a face stays with it.
   auto old = faces_.begin();
   for (BoundaryFace<Dim>& face : faces) {
-    while (old != faces_.end() && key(*old) < key(face)) ++old;
+    while (old != faces_.end() && old->key < face.key) ++old;
     face.frontal = -1.0;
-    if (old == faces_.end() || key(*old) != key(face)) continue;
+    if (old == faces_.end() || old->key != face.key) continue;
     face.frontal = old->frontal;
     face.frontal_views = old->frontal_views;
   }

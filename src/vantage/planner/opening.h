@@ -10,25 +10,14 @@
 
 namespace vantage {
 
-/// A lattice face between a seen node and an unseen one: an element of the boundary of the occlusion set.
+/// A face of the shadow boundary and what is made of it.
 template <int Dim>
-struct BoundaryFace {
-  std::size_t seen = 0, unseen = 0;   ///< Linear indices.
-  int direction = 0;                  ///< 2 axis + (1 if the unseen node is the lower one).
-  Vec<Dim> center;                    ///< [m]
-  Vec<Dim> normal;                    ///< Mean unit normal from grad psi, into the seen space.
+struct BoundaryFace : ShadowFace<Dim> {
   double known_distance = 0.0;        ///< Of the nearer of its nodes to the known surface [m].
   double frontal = 0.0;               ///< Best cosine at which an earlier observer in line of sight has looked at it [1].
   int frontal_views = 0;              ///< How many looked at it at a cosine above 0.08.
   std::array<std::uint8_t, 3> bin{};  ///< Distance, evidence, company.
   double probability = 0.5;           ///< That it opens when looked at [1].
-
-  /// Unit step from the unseen node to the seen one.
-  [[nodiscard]] Vec<Dim> step() const {
-    Vec<Dim> e = Vec<Dim>::Zero();
-    e[direction / 2] = direction % 2 == 0 ? -1.0 : 1.0;
-    return e;
-  }
 };
 
 /// Which boundary faces are true shadow boundary, learned while exploring (planner.md Sec. 2): faces alike in distance to the known surface, in how
@@ -58,7 +47,7 @@ class OpeningModel {
 
   Rule rule_;
   std::vector<Vec<Dim>> observers_;
-  std::vector<BoundaryFace<Dim>> faces_;                                                      // In order of (seen, direction).
+  std::vector<BoundaryFace<Dim>> faces_;                                                      // In the order of the view's boundary.
   Field<Dim> openness_, failures_;                                                            // failures_: F of planner.md, per unseen node.
   std::array<std::array<double, 2>, kDistanceBins * kEvidenceBins * kCompanyBins> counts_{};  // Opened, stayed.
 };

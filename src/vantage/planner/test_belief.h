@@ -13,6 +13,7 @@ template <int Dim>
 struct HandMade {
   Field<Dim, NodeState> state;
   Field<Dim> psi, known_distance;
+  ShadowBoundary<Dim> boundary;
 
   template <class StateAt>
   HandMade(const Box<Dim>& box, StateAt&& state_at, double h = kTestSpacing) : state(window_over(box, h)) {
@@ -28,8 +29,11 @@ struct HandMade {
     }
     psi = signed_distance(seen, 8.0);
     known_distance = distance_to_set(obstacle, 8.0);
+    boundary = ShadowBoundary<Dim>(state.window);
+    for (std::size_t i = 0; i < state.values.size(); ++i) boundary.touch(state.window.local(i));
+    boundary.renew(state, psi, state.window);
   }
-  [[nodiscard]] BeliefView<Dim> view() const { return {state, psi, known_distance}; }
+  [[nodiscard]] BeliefView<Dim> view() const { return {state, psi, known_distance, boundary}; }
 };
 
 template <int Dim>

@@ -103,7 +103,7 @@ std::string grid(const Chart& chart, const Axes& axes) {
 std::string drawn(const Chart& chart, const Curve& curve, const Axes& axes) {
   std::string line, dots;
   double first = kLeft, last = kLeft;
-  const bool sparse = curve.x.size() <= 60;
+  const bool sparse = curve.x.size() <= 60 && axes.x_high - axes.x_low <= 60.0;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (!shown(chart, curve, i)) continue;
     const double x = axes.px(curve.x[i]), y = axes.py(curve.y[i]);
@@ -114,7 +114,8 @@ std::string drawn(const Chart& chart, const Curve& curve, const Axes& axes) {
                         escaped(chart.x_label), rounded(curve.x[i]), escaped(quantity(curve.y[i], chart.unit)));
   }
   if (line.empty()) return {};
-  std::string svg = fmt::format(R"(<g class="curve" style="--c:{}">)", curve.colour);
+  const bool dashed = curve.style == Curve::Style::dashed;
+  std::string svg = fmt::format(R"(<g class="curve{}{}" style="--c:{}">)", dashed ? " dashed" : "", sparse ? "" : " dense", curve.colour);
   if (curve.style == Curve::Style::area) {
     svg += fmt::format(R"(<path class="under" d="{}L{:.1f} {:.1f}H{:.1f}Z"/>)", line, last, kHeight - kBottom, first);
   }
@@ -137,7 +138,10 @@ std::string labels(const Chart& chart, const Axes& axes) {
     }
   }
   std::ranges::stable_sort(all, [](const Label& a, const Label& b) { return a.y < b.y; });
-  for (std::size_t i = 1; i < all.size(); ++i) all[i].y = std::max(all[i].y, all[i - 1].y + 17.0);
+  constexpr double kLine = 17.0;
+  for (std::size_t i = 1; i < all.size(); ++i) all[i].y = std::max(all[i].y, all[i - 1].y + kLine);
+  double lowest = kHeight - kBottom;
+  for (std::size_t i = all.size(); i-- > 0 && all[i].y > lowest; lowest -= kLine) all[i].y = lowest;  // Back up from below the axis.
   std::string svg;
   for (const Label& label : all) {
     svg += fmt::format(R"(<text class="name" style="--c:{}" x="{:.1f}" y="{:.1f}" dy=".35em">{}</text>)", label.curve->colour, kWidth - kRight + 10.0,

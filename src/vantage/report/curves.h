@@ -7,7 +7,7 @@ namespace vantage {
 
 /// One line of a chart.
 struct Curve {
-  enum class Style { line, dots, area };
+  enum class Style { line, dots, area, dashed };
   std::string name;    ///< Written at its end; empty: no label.
   std::string colour;  ///< A CSS colour, `var(--c1)`.
   Style style = Style::line;

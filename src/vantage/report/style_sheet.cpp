@@ -6,10 +6,12 @@ namespace vantage {
 std::string style_sheet() {
   return R"css(
 :root { --paper: #fbfaf8; --card: #ffffff; --plate: #f3f1ec; --ink: #1d2430; --soft: #5a6474; --faint: #e4e1da; --grid: #e9e6df;
-  --c1: #2458c5; --c2: #b4540a; --c3: #0f766e; --good: #0f766e; --open: #b4540a; --mark: #d81b4a; --halo: #ffffff; }
+  --c1: #2458c5; --c2: #b4540a; --c3: #0f766e; --c4: #8a2fb0; --c5: #a07800; --c6: #7a4a2b; --c7: #5d6b1a; --c8: #0881a8;
+  --good: #0f766e; --open: #b4540a; --mark: #d81b4a; --halo: #ffffff; }
 @media (prefers-color-scheme: dark) {
   :root { --paper: #12151b; --card: #191d25; --plate: #0c0e13; --ink: #e9ecf2; --soft: #a3adbd; --faint: #2b313c; --grid: #262c36;
-    --c1: #82aaff; --c2: #f0a35e; --c3: #5eccbc; --good: #5eccbc; --open: #f0a35e; --mark: #ff4d78; --halo: #0c0e13; }
+    --c1: #82aaff; --c2: #f0a35e; --c3: #5eccbc; --c4: #cf9cf0; --c5: #e3c65b; --c6: #cfa585; --c7: #b9cb6a; --c8: #6ecbe8;
+    --good: #5eccbc; --open: #f0a35e; --mark: #ff4d78; --halo: #0c0e13; }
 }
 @media (prefers-color-scheme: dark) {
   #surface img, #unseen img, #path img, #known img { filter: brightness(.8); }
@@ -87,6 +89,10 @@ figcaption { margin-top: 14px; color: var(--soft); font-size: 15px; max-width: 6
 .tick, .label { fill: var(--soft); font-size: 13px; }
 .name { fill: var(--c); font-size: 14px; font-weight: 600; }
 .curve path { fill: none; stroke: var(--c); stroke-width: 2.2; stroke-linejoin: round; }
+.curve.dashed path { stroke-dasharray: 7 5; stroke-width: 1.8; } .curve.dashed circle { r: 1.6px; }
+.curve.dense circle { stroke: none; r: 1.2px; }
+.bars text { fill: var(--ink); font-size: 14px; } .bars .soft { fill: var(--soft); } .bars rect { fill: var(--c); }
+.bars path { stroke: var(--ink); stroke-width: 1.6; stroke-dasharray: 4 3; }
 .curve .under { fill: var(--c); stroke: none; opacity: .12; }
 .curve circle { fill: var(--c); stroke: var(--paper); stroke-width: 1; }
 .scroll { overflow-x: auto; }

@@ -25,6 +25,8 @@ class DepthPyramid {
   /// Bounds of the ranges in all directions to places of `box` (relative to the viewpoint): never too tight, at most a few pixels too wide.
   /// Nothing (low > high) for the viewpoint alone.
   [[nodiscard]] Bounds over(const Box<Dim>& box) const;
+  /// Bounds of the pixels of a face in `area`, which is not empty: never too tight, at most a square of half its longest side too wide.
+  [[nodiscard]] Bounds over(int face, const typename DepthImage<Dim>::Rectangle& area) const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -35,7 +37,6 @@ class DepthPyramid {
   };
   template <class Source>
   Level reduce(const Level& fine, int factor, const Source& source) const;
-  [[nodiscard]] Bounds over(int face, const typename DepthImage<Dim>::Rectangle& area) const;
 
   const DepthImage<Dim>& image_;
   std::vector<Level> levels_;  ///< From 4 x 4 pixels on.

@@ -3,6 +3,7 @@
 
 #include "vantage/base/parallel.h"
 #include "vantage/visibility/depth_image.h"
+#include "vantage/visibility/depth_pyramid.h"
 #include "vantage/visibility/sieve.h"
 
 namespace vantage {
@@ -21,22 +22,23 @@ template <int Dim>
 class PatchDrawer {
  public:
   PatchDrawer(DepthImage<Dim>& image, const Vec<Dim>& origin, double margin, double cone_slope)
-      : image_(image), origin_(origin), margin_(margin), slope_(cone_slope) {}
+      : image_(image), before_(image), origin_(origin), margin_(margin), slope_(cone_slope) {}
 
   using Lists = std::vector<std::vector<Entry<Dim>>>;  ///< Per face and band.
 
   [[nodiscard]] static Lists empty_lists() { return Lists(static_cast<std::size_t>(2 * Dim * kBands)); }
 
-  /// Adds a patch to the lists of the bands it may show in.
+  /// Adds a patch to the lists of the bands it may show in: not where all that the image holds already is nearer.
   void sort_in(Lists& lists, const Patch<Dim>& patch, std::uint32_t index) const {
     const int rows = image_.resolution();
     Box<Dim> box = patch.bounds();
     box.low -= origin_;
     box.high -= origin_;
     box = box.grown(widening(farthest(box)));
+    const double nearest = box.low.cwiseMax(-box.high).cwiseMax(0.0).norm() * (1.0 - 1e-9);
     for (int face = 0; face < 2 * Dim; ++face) {
       const auto area = image_.rectangle(face, box);
-      if (area.empty()) continue;
+      if (area.empty() || static_cast<double>(before_.over(face, area).high) <= nearest) continue;
       for (int band = area.low[0] * kBands / rows; band < kBands && band * rows / kBands < area.high[0]; ++band) {
         auto part = area;
         part.low[0] = std::max(area.low[0], rows * band / kBands);
@@ -74,6 +76,7 @@ class PatchDrawer {
   [[nodiscard]] static double farthest(const Box<Dim>& box) { return box.center().norm() + 0.5 * box.size().norm(); }
 
   DepthImage<Dim>& image_;
+  const DepthPyramid<Dim> before_;  // Only asked before anything is drawn.
   const Vec<Dim>& origin_;
   double margin_, slope_;
 };

@@ -20,6 +20,31 @@ double square(const Vec<Dim>& d) {
   return sum;
 }
 
+/// The multiple of `side` at or below a node.
+std::int32_t start_of(std::int32_t node, std::int32_t side) { return node - (node % side + side) % side; }
+
+enum class Verdict : std::uint8_t { hidden, seen, mixed };
+
+/// What the pyramid says of all nodes of `part` at once.
+template <int Dim>
+Verdict judge(const DepthPyramid<Dim>& pyramid, const Viewpoint<Dim>& viewpoint, const Grid<Dim>& part) {
+  const auto offset = [&](int a, std::int32_t node) { return static_cast<double>(node) * part.spacing - viewpoint.origin[a]; };
+  Box<Dim> box;
+  Vec<Dim> near, far;
+  for (int a = 0; a < Dim; ++a) {
+    box.low[a] = offset(a, part.first[a]);
+    box.high[a] = offset(a, part.first[a] + part.extent[a] - 1);
+    near[a] = std::max({box.low[a], -box.high[a], 0.0});
+    far[a] = std::max(-box.low[a], box.high[a]);
+  }
+  const double nearest = square<Dim>(near), farthest = square<Dim>(far), reach = viewpoint.max_range * viewpoint.max_range;
+  if (nearest > reach) return Verdict::hidden;
+  const auto depth = pyramid.over(box);
+  const double low = static_cast<double>(depth.low), high = static_cast<double>(depth.high);
+  if (farthest <= low * low && farthest <= reach) return Verdict::seen;
+  return nearest > high * high ? Verdict::hidden : Verdict::mixed;
+}
+
 template <int Dim>
 class Classifier {
  public:
@@ -28,9 +53,9 @@ class Classifier {
     std::size_t block;
     typename Set::Bits bits;
   };
-  enum class Verdict : std::uint8_t { hidden, seen, mixed };
 
-  Classifier(const DepthPyramid<Dim>& pyramid, const Viewpoint<Dim>& viewpoint, Set& set) : pyramid_(pyramid), set_(set), window_(set.window()) {
+  Classifier(const DepthPyramid<Dim>& pyramid, const Viewpoint<Dim>& viewpoint, Set& set)
+      : pyramid_(pyramid), viewpoint_(viewpoint), set_(set), window_(set.window()) {
     const DepthImage<Dim>& image = pyramid.image();
     look_ = {image.ranges().data(), image.resolution(), window_.spacing, viewpoint.max_range * viewpoint.max_range, viewpoint.origin};
   }
@@ -38,7 +63,7 @@ class Classifier {
   /// Classifies the blocks `first` .. `first + 2^level - 1` (counted from the set's first): uniform ones into the set, the others onto `mixed`.
   void classify(const Index<Dim>& first, int level, std::vector<Mixed>& mixed) const {
     if ((first.array() >= set_.blocks().extent.array()).any()) return;
-    const Verdict verdict = judge(nodes(first, level));
+    const Verdict verdict = judge(pyramid_, viewpoint_, nodes(first, level));
     if (verdict == Verdict::hidden) return;  // As blocks are from the start.
     if (verdict == Verdict::mixed && level > 0) {
       for (int child = 0; child < (1 << Dim); ++child) {
@@ -58,25 +83,6 @@ class Classifier {
   [[nodiscard]] Grid<Dim> nodes(const Index<Dim>& block, int level) const {
     const Grid<Dim> all{window_.spacing, (set_.blocks().first + block) * Set::kSide, Index<Dim>::Constant(Set::kSide << level)};
     return intersection(all, window_);
-  }
-
-  [[nodiscard]] double offset(int axis, std::int32_t node) const { return static_cast<double>(node) * look_.spacing - look_.origin[axis]; }
-
-  [[nodiscard]] Verdict judge(const Grid<Dim>& part) const {
-    Box<Dim> box;
-    Vec<Dim> near, far;
-    for (int a = 0; a < Dim; ++a) {
-      box.low[a] = offset(a, part.first[a]);
-      box.high[a] = offset(a, part.first[a] + part.extent[a] - 1);
-      near[a] = std::max({box.low[a], -box.high[a], 0.0});
-      far[a] = std::max(-box.low[a], box.high[a]);
-    }
-    const double nearest = square<Dim>(near), farthest = square<Dim>(far);
-    if (nearest > look_.max_square) return Verdict::hidden;
-    const auto depth = pyramid_.over(box);
-    const double low = static_cast<double>(depth.low), high = static_cast<double>(depth.high);
-    if (farthest <= low * low && farthest <= look_.max_square) return Verdict::seen;
-    return nearest > high * high ? Verdict::hidden : Verdict::mixed;
   }
 
   /// One block whose nodes in the window are all seen, or must be asked.
@@ -107,6 +113,7 @@ class Classifier {
   }
 
   const DepthPyramid<Dim>& pyramid_;
+  const Viewpoint<Dim>& viewpoint_;
   Set& set_;
   const Grid<Dim>& window_;
   LookUp<Dim> look_;
@@ -129,6 +136,60 @@ SeenSet<Dim> seen_from(const DepthImage<Dim>& image, const Viewpoint<Dim>& viewp
   return set;
 }
 
+template <int Dim>
+  requires SpatialDim<Dim>
+GradualView<Dim>::GradualView(const DepthPyramid<Dim>& pyramid, const Viewpoint<Dim>& viewpoint, const Grid<Dim>& window)
+    : pyramid_(pyramid), viewpoint_(viewpoint), window_(window) {
+  // Cubes stand at multiples of their side, so that a cut one tells where it began.
+  const Index<Dim> last = window.first + window.extent - Index<Dim>::Ones();
+  Grid<Dim> places{window.spacing, {}, {}};
+  for (int a = 0; a < Dim; ++a) {
+    places.first[a] = start_of(window.first[a], side()) / side();
+    places.extent[a] = std::max(0, start_of(last[a], side()) / side() - places.first[a] + 1);
+  }
+  std::vector<Grid<Dim>> cubes;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    cubes.push_back({window.spacing, (places.first + places.local(i)) * side(), Index<Dim>::Constant(side())});
+  judge(std::move(cubes));
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+void GradualView<Dim>::judge(std::vector<Grid<Dim>> cubes) {
+  std::vector<Verdict> verdicts(cubes.size());
+  parallel_for(cubes.size(), 64, [&](std::size_t i) {
+    cubes[i] = intersection(cubes[i], window_);
+    verdicts[i] = cubes[i].size() == 0 ? Verdict::hidden : vantage::judge(pyramid_, viewpoint_, cubes[i]);
+  });
+  undecided_.clear();
+  open_ = 0;
+  for (std::size_t i = 0; i < cubes.size(); ++i) {
+    if (verdicts[i] == Verdict::hidden) continue;
+    const bool all = verdicts[i] == Verdict::seen;
+    (all ? seen_ : undecided_).push_back(cubes[i]);
+    (all ? least_ : open_) += cubes[i].size();
+  }
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+bool GradualView<Dim>::refine() {
+  if (level_ == 0) return false;
+  const std::int32_t whole = side(), half = whole / 2;
+  --level_;
+  std::vector<Grid<Dim>> cubes;
+  for (const Grid<Dim>& cube : undecided_)
+    for (int child = 0; child < (1 << Dim); ++child) {
+      Grid<Dim> part{cube.spacing, {}, Index<Dim>::Constant(half)};
+      for (int a = 0; a < Dim; ++a) part.first[a] = start_of(cube.first[a], whole) + ((child >> a & 1) != 0 ? half : 0);
+      cubes.push_back(part);
+    }
+  judge(std::move(cubes));
+  return true;
+}
+
+template class GradualView<2>;
+template class GradualView<3>;
 template SeenSet<2> seen_from<2>(const DepthImage<2>&, const Viewpoint<2>&, const Grid<2>&);
 template SeenSet<3> seen_from<3>(const DepthImage<3>&, const Viewpoint<3>&, const Grid<3>&);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "vantage/visibility/depth_image.h"
-#include "vantage/visibility/seen_set.h"
+#include <vector>
+
+#include "vantage/field/seen_set.h"
+#include "vantage/visibility/depth_pyramid.h"
 
 namespace vantage {
 
@@ -29,5 +31,35 @@ template <int Dim>
 template <int Dim>
   requires SpatialDim<Dim>
 [[nodiscard]] SeenSet<Dim> seen_from(const DepthImage<Dim>& image, const Viewpoint<Dim>& viewpoint, const Grid<Dim>& window);
+
+/// A coarse answer first, refined where needed (paper Sec. IV-B, after Tsai et al. [22]): cubes of nodes that are all seen, or undecided; what
+/// neither holds is hidden. Every level's bounds hold, and refining never widens them; past the last level seen_from() decides node by node.
+template <int Dim>
+  requires SpatialDim<Dim>
+class GradualView {
+ public:
+  /// The pyramid must outlive this. The first cubes have 128 nodes a side.
+  GradualView(const DepthPyramid<Dim>& pyramid, const Viewpoint<Dim>& viewpoint, const Grid<Dim>& window);
+
+  /// Halves the undecided cubes. False, and nothing happens, if they are single blocks of SeenSet already. Cost: the undecided cubes.
+  bool refine();
+
+  [[nodiscard]] std::int32_t side() const { return SeenSet<Dim>::kSide << level_; }     ///< Nodes along an edge of an undecided cube.
+  [[nodiscard]] const std::vector<Grid<Dim>>& seen() const { return seen_; }            ///< Cubes, as far as they lie in the window.
+  [[nodiscard]] const std::vector<Grid<Dim>>& undecided() const { return undecided_; }  ///< The same.
+  [[nodiscard]] std::size_t seen_at_least() const { return least_; }                    ///< Nodes of the window.
+  [[nodiscard]] std::size_t seen_at_most() const { return least_ + open_; }             ///< Nodes of the window.
+
+ private:
+  static constexpr int kFirstLevel = 4;
+  void judge(std::vector<Grid<Dim>> cubes);
+
+  const DepthPyramid<Dim>& pyramid_;
+  Viewpoint<Dim> viewpoint_;
+  Grid<Dim> window_;
+  int level_ = kFirstLevel;
+  std::vector<Grid<Dim>> seen_, undecided_;
+  std::size_t least_ = 0, open_ = 0;
+};
 
 }  // namespace vantage

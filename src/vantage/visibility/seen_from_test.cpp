@@ -104,6 +104,46 @@ TYPED_TEST(SeenFrom, WindowsAgreeWhereTheyOverlap) {
   }
 }
 
+/// The laws of the coarse answer: it never errs, refining narrows it, and what it leaves open at the end are the mixed blocks and few others.
+TYPED_TEST(SeenFrom, CoarseAnswersBoundTheFineOne) {
+  constexpr int Dim = TypeParam::value;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const Viewpoint<Dim> view{random_place<Dim>(random, 2.0), random.uniform(2.0, 40.0)};
+    const DepthImage<Dim> image = random_image<Dim>(random, static_cast<float>(random.uniform(5.0, 40.0)));
+    const Grid<Dim> window = random_window<Dim>(random);
+    const SeenSet<Dim> fine = seen_from(image, view, window);
+    const DepthPyramid<Dim> pyramid(image);
+    GradualView<Dim> coarse(pyramid, view, window);
+    std::size_t least = 0, most = window.size();
+    do {
+      ASSERT_LE(least, coarse.seen_at_least());
+      ASSERT_GE(most, coarse.seen_at_most());
+      least = coarse.seen_at_least(), most = coarse.seen_at_most();
+      ASSERT_LE(least, fine.count());
+      ASSERT_GE(most, fine.count());
+      Field<Dim, std::uint8_t> said(window);  // 0: hidden.
+      const auto mark = [&](const std::vector<Grid<Dim>>& cubes, std::uint8_t value) {
+        for (const Grid<Dim>& cube : cubes)
+          for (std::size_t i = 0; i < cube.size(); ++i) {
+            std::uint8_t& node = said.at(cube.first + cube.local(i) - window.first);
+            ASSERT_EQ(node, 0);  // No node twice.
+            node = value;
+          }
+      };
+      mark(coarse.seen(), 1);
+      mark(coarse.undecided(), 2);
+      for (std::size_t i = 0; i < window.size(); ++i)
+        if (said[i] != 2) {
+          ASSERT_EQ(fine.at(window.local(i)), said[i] == 1);
+        }
+    } while (coarse.refine());
+    EXPECT_EQ(coarse.side(), SeenSet<Dim>::kSide);
+    EXPECT_FALSE(coarse.refine());
+    EXPECT_GE(coarse.undecided().size(), fine.mixed() > 0 ? 1U : 0U);
+  }
+}
+
 TYPED_TEST(SeenFrom, UniformBlocksTakeNoBits) {
   constexpr int Dim = TypeParam::value;
   const DepthImage<Dim> open(32, 100.0F);

@@ -4,10 +4,10 @@
 
 #include "vantage/base/options.h"
 #include "vantage/field/field.h"
+#include "vantage/field/seen_set.h"
 #include "vantage/geometry/patch.h"
 #include "vantage/scan/scan.h"
 #include "vantage/visibility/depth_image.h"
-#include "vantage/visibility/seen_set.h"
 
 namespace vantage {
 

@@ -15,6 +15,9 @@ namespace vantage {
 [[nodiscard]] Scene<3> make_patio(std::uint64_t seed);                              ///< Figs. 5, 6.
 [[nodiscard]] Scene<3> make_church(std::uint64_t seed);                             ///< Fig. 7.
 [[nodiscard]] Scene<3> make_wires(int posts, double diameter, std::uint64_t seed);  ///< Diameter of the thinnest wires [m].
+[[nodiscard]] Scene<3> make_floor(int rooms, std::uint64_t seed);
+[[nodiscard]] Scene<3> make_galleries(int columns, int rows, std::uint64_t seed);  ///< Of pillars.
+[[nodiscard]] Scene<3> make_forest(int trees, std::uint64_t seed);
 [[nodiscard]] Scene<2> make_blocks(int columns, int rows, std::uint64_t seed);
 [[nodiscard]] Scene<2> make_office(std::uint64_t seed);
 [[nodiscard]] Scene<2> make_town2d(int houses, std::uint64_t seed);

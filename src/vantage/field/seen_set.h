@@ -2,9 +2,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "vantage/field/grid.h"
+#include "vantage/field/field.h"
 
 namespace vantage {
 
@@ -20,6 +21,8 @@ class SeenSet {
   static constexpr std::int32_t kHidden = -1, kSeen = -2;             ///< Entries of blocks without bits.
 
   explicit SeenSet(const Grid<Dim>& window);
+  /// The nodes that are not 0.
+  explicit SeenSet(const Field<Dim, std::uint8_t>& nodes);
 
   [[nodiscard]] const Grid<Dim>& window() const { return window_; }
   /// The lattice of blocks: its node b holds the lattice nodes 8 b .. 8 b + 7.
@@ -31,6 +34,8 @@ class SeenSet {
   [[nodiscard]] const Bits& bits(std::int32_t entry) const { return bits_[static_cast<std::size_t>(entry)]; }
   /// Whether a node, counted from the window's first, is seen.
   [[nodiscard]] bool at(const Index<Dim>& local) const;
+  /// out[k] = 1 if node `start` + k along axis 0, counted from the window's first, is seen, else 0.
+  void read_row(const Index<Dim>& start, std::span<std::uint8_t> out) const;
   /// Index in Bits of a node's row, the node counted from its block's first.
   [[nodiscard]] static std::size_t row_of(const Index<Dim>& within) {
     std::size_t r = 0;
@@ -42,20 +47,29 @@ class SeenSet {
   /// Calls f(linear index in the window of the first node, nodes, their bits) for the rows of a block, as far as they lie in the window.
   template <class F>
   void for_rows(std::size_t block, F&& f) const;
-  [[nodiscard]] std::size_t count() const;  ///< Nodes seen.
-  [[nodiscard]] std::size_t mixed() const { return bits_.size(); }
-  [[nodiscard]] std::size_t bytes() const { return entries_.size() * sizeof(std::int32_t) + bits_.size() * sizeof(Bits); }
+  [[nodiscard]] std::size_t count() const;                                         ///< Nodes seen.
+  [[nodiscard]] std::size_t mixed() const { return bits_.size() - free_.size(); }  ///< Blocks with bits.
+  [[nodiscard]] std::size_t bytes() const {                                        ///< Memory held.
+    return (entries_.capacity() + free_.capacity()) * sizeof(std::int32_t) + bits_.capacity() * sizeof(Bits);
+  }
   /// Equal sets over equal windows are equal entry by entry when built in the same order of blocks.
   [[nodiscard]] bool operator==(const SeenSet&) const = default;
 
   /// Sets the entry of a block: `seen` holds its rows; all seen and all hidden blocks take no bits. Blocks are set once each.
   void set(std::size_t block, const Bits& seen);
   void set_uniform(std::size_t block, bool seen) { entries_[block] = seen ? kSeen : kHidden; }
+  /// Adds the nodes of another set of the same lattice that lie in this window. Cost: its blocks.
+  void unite(const SeenSet& other);
 
  private:
+  /// The block's nodes that lie in the window.
+  [[nodiscard]] Bits inside(std::size_t block) const;
+  void unite(std::size_t block, const Bits& seen);
+
   Grid<Dim> window_, blocks_;
   std::vector<std::int32_t> entries_;
   std::vector<Bits> bits_;
+  std::vector<std::int32_t> free_;  ///< Of bits_, for new blocks: those of blocks that became all seen.
 };
 
 template <int Dim>
