@@ -58,7 +58,9 @@ auto timed(const std::string& stage, Work&& work) {
 class Run {
  public:
   Run(const Scene<3>& scene, double voxel)
-      : scene_(scene), lidar_(scene.mesh, lidar_options(scene)), surface_(scene.domain, surface_options(scene)),
+      : scene_(scene),
+        lidar_(scene.mesh, lidar_options(scene)),
+        surface_(scene.domain, surface_options(scene)),
         belief(window_over(scene.domain, voxel), scene.eta) {}
 
   /// phi of a scan from `place`, and the walls between its rays.
@@ -112,7 +114,8 @@ void stages(const BeliefView<3>& view, OpeningModel<3> opening, std::span<const 
     return volumes;
   };
   const auto volumes = timed("first look", [&] { return look(nodes.size(), options.rays); });
-  (void)timed("second look", [&] { return look(std::min<std::size_t>(nodes.size(), static_cast<std::size_t>(options.refine)), options.refine_rays); });
+  (void)timed("second look",
+              [&] { return look(std::min<std::size_t>(nodes.size(), static_cast<std::size_t>(options.refine)), options.refine_rays); });
   if (nodes.empty()) return;
   const std::size_t best = nodes[static_cast<std::size_t>(std::max_element(volumes.begin(), volumes.end()) - volumes.begin())];
   (void)timed("path", [&] { return safe_path(reachable, best, here).size(); });

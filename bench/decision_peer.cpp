@@ -66,9 +66,9 @@ std::optional<PeerChoice> octomap_choice(const BeliefView<3>& view, std::span<co
     for (std::size_t i = 0; i < views.size(); ++i) gains[i] = gain_of(tree, views[i] + half, directions, range, beyond);
     return cpu_seconds() - begin;
   };
-  const auto best = [&](double Gain::*term) {
-    return static_cast<std::size_t>(
-        std::max_element(gains.begin(), gains.end(), [term](const Gain& a, const Gain& b) { return a.*term < b.*term; }) - gains.begin());
+  const auto best = [&](double Gain::* term) {
+    return static_cast<std::size_t>(std::max_element(gains.begin(), gains.end(), [term](const Gain& a, const Gain& b) { return a.*term < b.*term; }) -
+                                    gains.begin());
   };
   choice.cpu = all(false);
   choice.cpu_volume = all(true);

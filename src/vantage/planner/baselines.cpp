@@ -99,10 +99,10 @@ double frontier_count(std::span<const BoundaryFace<Dim>> frontier, const RayMarc
   return static_cast<double>(count);
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                                  \
-  template std::vector<BoundaryFace<D>> frontier_faces<D>(const BeliefView<D>&, std::span<const BoundaryFace<D>>);                              \
-  template std::vector<FrontierPlace> frontier_places<D>(const Field<D, std::uint8_t>&, std::span<const BoundaryFace<D>>,                       \
-                                                         std::span<const Vec<D>>, double);                                                      \
+#define VANTAGE_INSTANTIATE(D)                                                                                                                     \
+  template std::vector<BoundaryFace<D>> frontier_faces<D>(const BeliefView<D>&, std::span<const BoundaryFace<D>>);                                 \
+  template std::vector<FrontierPlace> frontier_places<D>(const Field<D, std::uint8_t>&, std::span<const BoundaryFace<D>>, std::span<const Vec<D>>, \
+                                                         double);                                                                                  \
   template double frontier_count<D>(std::span<const BoundaryFace<D>>, const RayMarch<D>&, const Vec<D>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

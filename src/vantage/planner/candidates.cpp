@@ -120,8 +120,8 @@ Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<
   const double near = cramped ? 2.0 * clearance + 2.0 * grid.spacing : 0.0;
   const Regions<Dim> passable(grid, [&](std::size_t first, std::span<std::uint8_t> row) {
     for (std::size_t k = 0; k < row.size(); ++k)
-      row[k] = view.seen(first + k) && (static_cast<double>(view.known_distance[first + k]) >= clearance ||
-                                        (cramped && (grid.position(first + k) - from).norm() <= near));
+      row[k] = view.seen(first + k) &&
+               (static_cast<double>(view.known_distance[first + k]) >= clearance || (cramped && (grid.position(first + k) - from).norm() <= near));
   });
   // Every seen node beside the scanner begins a region that is reached.
   std::vector<std::uint8_t> reached(passable.count());

@@ -136,9 +136,8 @@ MarchGrid<Dim>::MarchGrid(const Field<Dim, NodeState>& state) : window_(state.wi
   }
   codes_.resize(std::size_t{step} * 64);
   std::array<std::unique_ptr<Rows<Dim>>, 2> rows;
-  parallel_for(2, 1, [&](std::size_t i) {
-    rows[i] = std::make_unique<Rows<Dim>>(nearness_rows(state, i == 0 ? NodeState::seen : NodeState::unseen));
-  });
+  parallel_for(2, 1,
+               [&](std::size_t i) { rows[i] = std::make_unique<Rows<Dim>>(nearness_rows(state, i == 0 ? NodeState::seen : NodeState::unseen)); });
   const std::size_t length = rows[0]->length;
   parallel_for(rows[0]->count(), 256, [&](std::size_t r) {
     const Index<Dim> node = window_.local(r * length);
@@ -158,13 +157,13 @@ template <int Dim>
 bool MarchGrid<Dim>::grown_from(const MarchGrid& before) const {
   if (!(before.window_ == window_)) return false;
   return parallel_reduce(
-      codes_.size(), std::size_t{1} << 18, 1,
-      [&](std::size_t begin, std::size_t end) {
-        int grown = 1;
-        for (std::size_t i = begin; i < end; ++i) grown &= codes_[i] >> 6 >= before.codes_[i] >> 6 ? 1 : 0;
-        return grown;
-      },
-      [](int& all, int part) { all &= part; }) != 0;
+             codes_.size(), std::size_t{1} << 18, 1,
+             [&](std::size_t begin, std::size_t end) {
+               int grown = 1;
+               for (std::size_t i = begin; i < end; ++i) grown &= codes_[i] >> 6 >= before.codes_[i] >> 6 ? 1 : 0;
+               return grown;
+             },
+             [](int& all, int part) { all &= part; }) != 0;
 }
 
 template class MarchGrid<2>;

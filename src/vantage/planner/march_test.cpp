@@ -99,7 +99,8 @@ TYPED_TEST(MarchTest, SummedFadingEqualsSampleBySample) {
 }
 
 /// cos(theta) dA = r^(d-1) dOmega: the boundary sum with line of sight and the ray form are the same integral, point by point. Faces stand in the
-/// lattice's directions, so the sum takes cos against these; rays sample it with an error of about the boundary's share over the root of their number.
+/// lattice's directions, so the sum takes cos against these; rays sample it with an error of about the boundary's share over the root of their
+/// number.
 TYPED_TEST(MarchTest, RayFormEqualsBoundarySumPointByPoint) {
   constexpr int Dim = TypeParam::value;
   int compared = 0;

@@ -85,8 +85,7 @@ TYPED_TEST(PathsTest, PathsAreSafeAndNearlyShortest) {
     double length = 0.0;
     for (std::size_t i = 1; i < path.size(); ++i) {
       length += (path[i] - path[i - 1]).norm();
-      for (double t = 0.0; t <= 1.0; t += 0.01)
-        EXPECT_NE(reachable.at(reachable.window.nearest(path[i - 1] + t * (path[i] - path[i - 1]))), 0);
+      for (double t = 0.0; t <= 1.0; t += 0.01) EXPECT_NE(reachable.at(reachable.window.nearest(path[i - 1] + t * (path[i] - path[i - 1]))), 0);
     }
     const Seed seed_node{target, 0.0F};
     const auto arrival = fast_march<Dim>(reachable, std::span(&seed_node, 1));

@@ -98,7 +98,8 @@ class Search {
   }
   std::vector<std::size_t> trace(std::size_t from, std::size_t to) const {
     std::vector<std::size_t> way{to};
-    while (way.back() != from) way.push_back(way.back() - static_cast<std::size_t>(steps_.offset[static_cast<std::size_t>(came_by_[way.back()] - 1)]));
+    while (way.back() != from)
+      way.push_back(way.back() - static_cast<std::size_t>(steps_.offset[static_cast<std::size_t>(came_by_[way.back()] - 1)]));
     std::reverse(way.begin(), way.end());
     return way;
   }
