@@ -89,7 +89,7 @@ std::vector<FrontierPlace> frontier_places(const Field<Dim, std::uint8_t>& reach
 
 template <int Dim>
 double frontier_count(std::span<const BoundaryFace<Dim>> frontier, const RayMarch<Dim>& rays, const Vec<Dim>& z, double max_range) {
-  constexpr std::size_t kMost = 4000;
+  constexpr std::size_t kMost = 1000;
   const std::size_t stride = frontier.size() / kMost + 1;
   std::size_t count = 0;
   for (std::size_t i = 0; i < frontier.size(); i += stride) {

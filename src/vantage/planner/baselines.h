@@ -30,7 +30,7 @@ template <int Dim>
 [[nodiscard]] std::vector<FrontierPlace> frontier_places(const Field<Dim, std::uint8_t>& reachable, std::span<const BoundaryFace<Dim>> frontier,
                                                          std::span<const Vec<Dim>> visited, double reach);
 
-/// How many of `frontier` are in line of sight from `z` and within `max_range` [m]. Of more than 4,000, every n-th is asked and counts n times.
+/// How many of `frontier` are in line of sight from `z` and within `max_range` [m]. Of more than 1,000, every n-th is asked and counts n times.
 template <int Dim>
 [[nodiscard]] double frontier_count(std::span<const BoundaryFace<Dim>> frontier, const RayMarch<Dim>& rays, const Vec<Dim>& z, double max_range);
 

@@ -90,7 +90,7 @@ TYPED_TEST(BaselineTest, RandomGoesAnywhereBySeed) {
 TYPED_TEST(BaselineTest, SameSeedSamePlace) {
   constexpr int Dim = TypeParam::value;
   const auto belief = hall<Dim>();
-  for (const Metric metric : {Metric::nearest, Metric::count, Metric::random}) {
+  for (const Metric metric : {Metric::nearest, Metric::count, Metric::random, Metric::optimistic}) {
     const Decision<Dim> a = decide<Dim>(belief, metric, 5), b = decide<Dim>(belief, metric, 5);
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.scored, b.scored);
@@ -105,7 +105,7 @@ TYPED_TEST(BaselineTest, NothingToOpenEndsTheRun) {
     const double r = p.template lpNorm<Eigen::Infinity>();
     return r < 2.0 ? NodeState::seen : r < 2.6 ? NodeState::obstacle : NodeState::unseen;
   });
-  for (const Metric metric : {Metric::nearest, Metric::count, Metric::random}) {
+  for (const Metric metric : {Metric::nearest, Metric::count, Metric::random, Metric::optimistic}) {
     PlannerOptions options;
     options.metric = metric;
     const Decision<Dim> decision = Planner<Dim>(options, 80.0, 1).choose(box.view(), on_axis<Dim>(0.1), 1.0);

@@ -152,6 +152,20 @@ MarchGrid<Dim>::MarchGrid(const Field<Dim, NodeState>& state) : window_(state.wi
   });
 }
 
+template <int Dim>
+  requires SpatialDim<Dim>
+bool MarchGrid<Dim>::grown_from(const MarchGrid& before) const {
+  if (!(before.window_ == window_)) return false;
+  return parallel_reduce(
+             codes_.size(), std::size_t{1} << 18, 1,
+             [&](std::size_t begin, std::size_t end) {
+               int grown = 1;
+               for (std::size_t i = begin; i < end; ++i) grown &= codes_[i] >> 6 >= before.codes_[i] >> 6 ? 1 : 0;
+               return grown;
+             },
+             [](int& all, int part) { all &= part; }) != 0;
+}
+
 template class MarchGrid<2>;
 template class MarchGrid<3>;
 template Field<2, std::uint8_t> chessboard_distance<2>(const Field<2, NodeState>&, NodeState);

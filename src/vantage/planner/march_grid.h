@@ -29,7 +29,8 @@ class MarchGrid {
   [[nodiscard]] static NodeState state(std::uint8_t code) { return static_cast<NodeState>(code >> 6); }
   /// Largest D so that all nodes less than D away along every axis are in this node's state; of obstacles 1.
   [[nodiscard]] static int distance(std::uint8_t code) { return code & kFar; }
-  [[nodiscard]] bool empty() const { return codes_.empty(); }
+  /// True if since `before` nodes have only turned from unseen to seen and from either to obstacle; false for another window.
+  [[nodiscard]] bool grown_from(const MarchGrid& before) const;
   [[nodiscard]] const Grid<Dim>& window() const { return window_; }
 
  private:

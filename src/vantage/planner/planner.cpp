@@ -55,9 +55,9 @@ void check_weights(const std::vector<double>& weights) {
 void describe(PlannerOptions& o, const OptionVisitor& visit) {
   using namespace std::string_literals;
   visit(
-      "metric", o.metric, Choices{"ray", "boundary", "nearest", "count", "random"},
+      "metric", o.metric, Choices{"ray", "boundary", "nearest", "count", "random", "optimistic"},
       "form of E: rays to the shadow boundary, or the paper's sum over its elements; or instead of E: nearest frontier, number of frontier faces in "
-      "view, any medial place");
+      "view, any medial place, unseen volume up to the known surface");
   visit("volume_weight", o.volume_weight, "", Range{0, 1e6}, "ray form: weight of the expected new volume");
   visit("solid_angle_weight", o.solid_angle_weight, "", Range{0, 1e6}, "ray form: weight of the shadow boundary's solid angle");
   visit("area_weight", o.area_weight, "", Range{0, 1e6}, "ray form: weight of Eq. (1) with line of sight");
@@ -195,6 +195,23 @@ auto Planner<Dim>::score_by_baseline(const BeliefView<Dim>& view, std::span<cons
 
 template <int Dim>
   requires SpatialDim<Dim>
+auto Planner<Dim>::score_by_optimism(const BeliefView<Dim>& view, std::span<const std::size_t> medial) -> std::vector<Scored> {
+  const std::size_t most_blocks = static_cast<std::size_t>(options_.candidates) * 64;
+  if (!pool_) pool_.emplace(view.window(), most_blocks);
+  pool_->offer(medial);
+  // The same directions at every step: gains only fall.
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_);
+  std::vector<Scored> scored;
+  for (const auto& gain : pool_->best(rays(view), directions, reachable_, visited_)) {
+    scored.push_back({gain.node, {}, gain.volume});
+    scored.back().sums.volume = gain.volume;
+  }
+  set_scale(scored);
+  return scored;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
 typename Decision<Dim>::End Planner<Dim>::end_of(const Decision<Dim>& decision, double seen_volume) {
   using End = typename Decision<Dim>::End;
   if (!decision.found) return opening_.faces().empty() ? End::nothing_can_open : End::unreachable;
@@ -210,7 +227,9 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   using Metric = PlannerOptions::Metric;
   visited_.push_back(here);
   if (weight_.values.empty()) weight_ = weight_field<Dim>(view.window(), options_.weights);
-  grid_ = MarchGrid<Dim>(view.state);
+  MarchGrid<Dim> grid(view.state);
+  if (pool_ && !grid.grown_from(grid_)) pool_->forget();
+  grid_ = std::move(grid);
   opening_.update(view, here, max_range_, &grid_);
   opacity_ = options_.lambda_factor * measured_opacity(view);
   reachable_ = reachable_nodes(view, here, options_.clearance);
@@ -223,9 +242,10 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   const std::size_t limit = static_cast<std::size_t>(options_.candidates) * (4 - Dim);
   const std::uint64_t turn = seed_ * 7919 + visited_.size();
   const std::vector<std::size_t> nodes = choose_candidates<Dim>(medial, opening_.faces(), rays(view), view.window(), limit, turn);
-  const std::vector<Scored> scored = options_.metric == Metric::ray        ? score_by_rays(view, nodes)
-                                     : options_.metric == Metric::boundary ? score_by_boundary(view, nodes)
-                                                                           : score_by_baseline(view, nodes, medial);
+  const std::vector<Scored> scored = options_.metric == Metric::ray          ? score_by_rays(view, nodes)
+                                     : options_.metric == Metric::boundary   ? score_by_boundary(view, nodes)
+                                     : options_.metric == Metric::optimistic ? score_by_optimism(view, medial)
+                                                                             : score_by_baseline(view, nodes, medial);
 
   Decision<Dim> decision;
   decision.candidates = static_cast<std::int64_t>(scored.size());

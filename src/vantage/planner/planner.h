@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vantage/field/belief_view.h"
+#include "vantage/planner/lazy_pool.h"
 #include "vantage/planner/opening.h"
 #include "vantage/planner/planner_options.h"
 #include "vantage/planner/verdict.h"
@@ -52,6 +54,7 @@ class Planner {
   [[nodiscard]] std::vector<Scored> score_by_boundary(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) const;
   [[nodiscard]] std::vector<Scored> score_by_baseline(const BeliefView<Dim>& view, std::span<const std::size_t> nodes,
                                                       std::span<const std::size_t> medial);
+  [[nodiscard]] std::vector<Scored> score_by_optimism(const BeliefView<Dim>& view, std::span<const std::size_t> medial);
   [[nodiscard]] typename Decision<Dim>::End end_of(const Decision<Dim>& decision, double seen_volume);
   [[nodiscard]] double mix(const RaySums& sums) const;
   void set_scale(std::span<const Scored> scored);
@@ -64,8 +67,9 @@ class Planner {
   std::vector<Vec<Dim>> visited_;
   Field<Dim, std::uint8_t> reachable_;
   MarchGrid<Dim> grid_;  // Of the last decision's belief.
-  Field<Dim> weight_;    // w per node; empty: 1 everywhere.
-  RaySums scale_;        // Largest of each term over the candidates of the last decision.
+  std::optional<LazyPool<Dim>> pool_;
+  Field<Dim> weight_;  // w per node; empty: 1 everywhere.
+  RaySums scale_;      // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
   int below_ = 0, idle_ = 0;  // Picks in a row.
 };

@@ -11,8 +11,8 @@ namespace vantage {
 /// own formulas, as repaired or as printed, are options, so that the differences can be measured.
 struct PlannerOptions {
   /// March rays to the shadow boundary, or sum over its elements; or what others do (baselines.h): walk to the nearest frontier, to where most faces
-  /// of it are in view, or to any medial node.
-  enum class Metric { ray, boundary, nearest, count, random } metric = Metric::ray;
+  /// of it are in view, or to any medial node; or the most unseen volume along rays up to the known surface, over a medial node of every block.
+  enum class Metric { ray, boundary, nearest, count, random, optimistic } metric = Metric::ray;
 
   // Ray form: a sum of terms, each divided by its maximum over the candidates.
   double volume_weight = 1.0;       ///< Expected new volume.

@@ -70,9 +70,9 @@ TYPED_TEST(PlannerTest, RayFormOfOneWall) {
   const RayMarch<Dim> march(belief.view(), openness, {0.0, r, 0.0});
   const RaySums sums = march.look(on_axis<Dim>(wall - d), spread_directions<Dim>(4000, 1));
   const OneWall truth = one_wall<Dim>(d, r);
-  EXPECT_NEAR(sums.solid_angle, truth.angle, 0.05 * truth.angle);
-  EXPECT_NEAR(sums.area, truth.area, 0.10 * truth.area);  // March steps of half a cell.
-  EXPECT_NEAR(sums.volume, truth.cap, 0.10 * truth.cap);
+  EXPECT_NEAR(sums.solid_angle, truth.angle, 0.01 * truth.angle);
+  EXPECT_NEAR(sums.area, truth.area, 0.01 * truth.area);
+  EXPECT_NEAR(sums.volume, truth.cap, 0.01 * truth.cap);
 }
 
 TYPED_TEST(PlannerTest, BoundarySumOfOneWallAgreesWithTheRayForm) {

@@ -128,13 +128,19 @@ class Beyond {
  public:
   using Medium = typename RayMarch<Dim>::Medium;
   using Fading = std::vector<std::array<double, Dim + 1>>;
-  Beyond(const Codes& codes, const Field<Dim>& openness, const Medium& medium, const Fading& fading)
-      : codes_(codes), openness_(openness), medium_(medium), fading_(fading), h_(openness.window.spacing) {}
-
   /// On the way through what is not seen; a sample in the middle of every cell's length.
   struct Depth {
     double t = 0.0, transmitted = 0.0, volume = 0.0;
   };
+  Beyond(const Codes& codes, const Field<Dim>& openness, const Medium& medium, const Fading& fading)
+      : codes_(codes), openness_(openness), medium_(medium), fading_(fading), h_(openness.window.spacing) {}
+
+  /// From the observer on, whatever opens.
+  [[nodiscard]] Depth whole_way() {
+    own_ = std::sqrt(static_cast<double>(Dim));
+    return {0.5, unit_, 0.0};
+  }
+
   /// False if nothing opens where the ray stops; else adds to the other sums, per solid angle.
   bool begin(const Ray<Dim>& ray, double range, Depth& depth, RaySums& sums) const {
     const double open = openness_at(ray, range);
@@ -152,7 +158,7 @@ class Beyond {
     const Index<Dim> cell = ray.cell(depth.t);
     const std::uint8_t code = codes_.code(cell);
     const NodeState state = MarchGrid<Dim>::state(code);
-    if (state == NodeState::obstacle) return false;
+    if (state == NodeState::obstacle && depth.t > own_) return false;
     const int reach = medium_.weight == nullptr ? MarchGrid<Dim>::distance(code) : 1;
     const double samples = std::clamp(std::ceil(std::min(ray.exit(cell, reach), limit) - depth.t), 1.0, most_);
     if (state == NodeState::unseen) {
@@ -193,6 +199,7 @@ class Beyond {
   const Field<Dim>& openness_;
   const Medium& medium_;
   const Fading& fading_;
+  double own_ = 0.0;  // Obstacles as near as this do not count [cells].
   double h_, most_ = static_cast<double>(fading_.size() - 1);
   double unit_ = h_ * cell_power<Dim>(h_) * exp_minus(0.5 * medium_.lambda * h_);  // Of the first sample at range 1 [cell].
 };
@@ -270,6 +277,36 @@ RaySums RayMarch<Dim>::look(const Vec<Dim>& origin, std::span<const Vec<Dim>> di
     const double solid_angle = 2.0 * kPi * (Dim - 1) / static_cast<double>(rays.size());
     for (double* sum : {&sums.volume, &sums.solid_angle, &sums.area}) *sum *= solid_angle;
     return sums;
+  };
+  return medium_.grid != nullptr ? along(*medium_.grid) : along(PlainCodes<Dim>{view_.state});
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+double RayMarch<Dim>::unseen_volume(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const {
+  const Grid<Dim>& grid = view_.window();
+  Medium clear = medium_;
+  clear.lambda = 0.0;
+  const RayMarch<Dim> through(view_, openness_, clear);
+  std::vector<Ray<Dim>> rays;
+  rays.reserve(directions.size());
+  for (const Vec<Dim>& direction : directions) rays.emplace_back(grid, origin, direction);
+  const auto along = [&](const auto& codes) {
+    using Way = Beyond<Dim, std::decay_t<decltype(codes)>>;
+    using Depth = typename Way::Depth;
+    Way way(codes, openness_, through.medium_, through.fading_);
+    const Depth start = way.whole_way();
+    std::vector<double> volumes(rays.size());
+    in_turn<Depth>(
+        rays.size(), [&](std::size_t i, Depth& depth) { return depth = start, rays[i].inside; },
+        [&](std::size_t i, Depth& depth) {
+          if (way.step(rays[i], depth)) return true;
+          volumes[i] = depth.volume;
+          return false;
+        });
+    double sum = 0.0;
+    for (const double volume : volumes) sum += volume;
+    return sum * (2.0 * kPi * (Dim - 1) / static_cast<double>(rays.size()));
   };
   return medium_.grid != nullptr ? along(*medium_.grid) : along(PlainCodes<Dim>{view_.state});
 }

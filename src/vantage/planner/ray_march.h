@@ -42,6 +42,10 @@ class RayMarch {
   /// Ray form of the metric (method.md Sec. 5) over `directions`, which share the full sphere evenly.
   [[nodiscard]] RaySums look(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const;
 
+  /// Volume of the unseen that the rays pass through up to the first known surface: what a scan here shows at most [m^Dim]. The samples stand at
+  /// fixed places, so it never rises while nodes only turn from unseen to seen and from either to obstacle. `openness`, lambda and tau do not count.
+  [[nodiscard]] double unseen_volume(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const;
+
   /// True if the straight line from `from` runs through seen cells until it is within `slack` of `to` [m].
   [[nodiscard]] bool line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, double slack) const;
   /// w at a place; 1 outside of the window.
