@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "paper_views.h"
+
+using namespace vantage;
+
+namespace {
+
+constexpr std::int64_t kMostScans = 12;
+constexpr int kSymmetries = 8;  ///< Mirrors of the three axes: what the ring of six and the box have in common.
+constexpr int kDraws = 400;
+
+Vec<3> mirrored(const Vec<3>& p, const Vec<3>& centre, int symmetry) {
+  Vec<3> q = p;
+  for (int a = 0; a < 3; ++a)
+    if ((symmetry >> a & 1) != 0) q[a] = 2.0 * centre[a] - p[a];
+  return q;
+}
+
+/// How far the set is from its image: the mean distance from a mirrored place to the nearest of the set [m].
+double defect(std::span<const Vec<3>> places, const Vec<3>& centre, int symmetry) {
+  double sum = 0.0;
+  for (const Vec<3>& p : places) {
+    const Vec<3> image = mirrored(p, centre, symmetry);
+    double nearest = kInfinity;
+    for (const Vec<3>& q : places) nearest = std::min(nearest, (image - q).norm());
+    sum += nearest;
+  }
+  return sum / static_cast<double>(places.size());
+}
+
+/// The symmetry that the places keep best, and how well.
+struct Symmetry {
+  int which = 1;
+  double defect = kInfinity;  ///< [m]
+};
+
+Symmetry best_symmetry(std::span<const Vec<3>> places, const Vec<3>& centre) {
+  Symmetry best;
+  for (int s = 1; s < kSymmetries; ++s)
+    if (const double d = defect(places, centre, s); d < best.defect) best = {s, d};
+  return best;
+}
+
+std::string name_of(int symmetry) {
+  std::string axes;
+  for (int a = 0; a < 3; ++a)
+    if ((symmetry >> a & 1) != 0) axes += "xyz"[a];
+  return axes;
+}
+
+/// The same of places drawn at random, the first at the start: the mean of the best.
+double chance(const PaperPlace<3>& place, std::size_t count, const Vec<3>& centre) {
+  const std::vector<Vec<3>> pool = place.trial().starts(static_cast<std::int64_t>(count - 1) * kDraws, 1);
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<Vec<3>> places{place.scene().start};
+    const auto first = pool.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(draw) * (count - 1));
+    places.insert(places.end(), first, first + static_cast<std::ptrdiff_t>(count - 1));
+    sum += best_symmetry(places, centre).defect;
+  }
+  return sum / kDraws;
+}
+
+struct Result {
+  PaperRun<3> run;
+  std::vector<Vec<3>> places;  ///< Up to 99 %.
+  Symmetry symmetry;
+  double chance = 0.0;  ///< [m]
+};
+
+Image stations_view(const PaperPlace<3>& place, const Result& result, const Camera& camera) {
+  return with_stations(scene_picture(place.scene(), place.scene().domain, camera), result.places, camera);
+}
+
+Image picture(const PaperPlace<3>& place, const std::vector<Result>& results) {
+  const Box<3>& domain = place.scene().domain;
+  const Camera bird = view_camera(domain, {66.0, 32.0, 620, 400}), above = Camera::map(domain, {360, 360, 14.0});
+  Board board;
+  board.title = "Fig. 3 again: six cylinders in a ring";
+  board.note = "vantage points until 99 % is seen, in a bird's view and from above; 0 is the start, in the middle";
+  for (std::size_t f = 2; f < results.size(); ++f) {
+    Canvas plan(stations_view(place, results[f], above));
+    draw_scale(plan, {16.0, above.height() - 14.0}, 1.0 / above.pixel_size(1.0), 100.0);
+    board.rows.push_back({paper_formulas()[f].label, {{stations_view(place, results[f], bird), {}}, {plan.image(), {}}}});
+  }
+  board.legend = {{Key::Sign::pin, {}, "vantage point with the number of its scan", {}}, {Key::Sign::area, {128, 158, 190}, "cylinder", {}}};
+  return board_image(board);
+}
+
+Json to_json(const PaperFormula& formula, const Result& result) {
+  Json json{{"formula", formula.variant.name},      {"label", formula.label},
+            {"n99", count_json(result.run.scans_to(0.99))}, {"coverage", result.run.coverage},
+            {"symmetry", {{"mirrors", name_of(result.symmetry.which)}, {"defect_m", result.symmetry.defect}, {"chance_m", result.chance}}},
+            {"vantage", Json::array()}};
+  for (const Vec<3>& p : result.places) json["vantage"].push_back(vantage::to_json<3>(p));
+  return json;
+}
+
+std::string table(const std::vector<Result>& results) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t f = 0; f < results.size(); ++f) {
+    const Result& r = results[f];
+    rows.push_back({paper_formulas()[f].label, count_text(r.run.scans_to(0.99)), fmt::format("{:.1f} %", 100.0 * r.run.coverage.back()),
+                    fmt::format("{:.2f} m ({})", r.symmetry.defect, name_of(r.symmetry.which)), fmt::format("{:.2f} m", r.chance)});
+  }
+  return "Fig. 3, six upright cylinders in a ring (`pipes:cylinders=6,symmetric=1`), start in the middle. Asymmetry: how far, on average, a vantage point's\n"
+         "mirror image (in the axes named) is from the nearest vantage point; last, the same of places drawn at random. The paper: \"notice also the symmetry of the\n"
+         "planned vantage point locations\", without a number.\n\n" +
+         markdown({"E", "scans to 99 %", "seen", "asymmetry", "by chance"}, rows);
+}
+
+}  // namespace
+
+PaperItem paper_fig3(const PaperSetup& setup, Observer& observer) {
+  const PaperPlace<3> place("pipes:cylinders=6,symmetric=1", {{"explore.grid", setup.quick ? "30" : "60", ""}, {"scene.start", "10,10,5", ""}}, setup);
+  const Vec<3> centre = place.scene().domain.center();
+  PaperItem item;
+  item.json = {{"figure", "fig3"}, {"scene", "pipes:cylinders=6,symmetric=1"}, {"paper", Json::object()}, {"rows", Json::array()}};
+  std::vector<Result> results;
+  for (const PaperFormula& formula : paper_formulas()) {
+    Result result;
+    result.run = explore_place(place, formula.variant, {kMostScans, 0.99, "fig3: " + formula.variant.name}, observer);
+    result.places = stations_of(result.run);
+    result.symmetry = best_symmetry(result.places, centre);
+    result.chance = chance(place, result.places.size(), centre);
+    item.json["rows"].push_back(to_json(formula, result));
+    results.push_back(std::move(result));
+  }
+  item.text = table(results);
+  if (setup.pictures) item.add_picture("fig3.png", picture(place, results));
+  item.add_texts("fig3");
+  return item;
+}
