@@ -17,7 +17,8 @@ struct PaperItem {
 
   /// Text and figures as NAME.md and NAME.json.
   void add_texts(const std::string& name);
-  void add_picture(const std::string& name, const vantage::Image& image);
+  /// As PNG, in few colours so that the file is small.
+  void add_picture(const std::string& name, vantage::Image image);
 };
 
 /// How it is made.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMostScans = 20;
 constexpr std::size_t kColumns = 5;
-constexpr PictureFrame kPanel{300, 300, 0.0};
+constexpr PictureFrame kPanel{276, 276, 9.0};
 constexpr Rgb kOutline{29, 95, 214};
 constexpr double kDarkest = 0.16;  ///< Of the colours of E.
 
@@ -30,8 +30,12 @@ std::vector<Vec<2>> on_map(std::span<const Vec<2>> places, const Camera& camera)
   return on_canvas(flat, camera);
 }
 
-Image marked(Image image, const Snapshot<2>& snapshot, const Camera& camera) {
-  Canvas canvas(std::move(image));
+/// On white, with a line around the domain and the marks.
+Image marked(const Image& image, const Snapshot<2>& snapshot, const Camera& camera) {
+  Canvas canvas(image.width, image.height, {255, 255, 255});
+  canvas.lay(image, 0, 0);
+  const double left = 9.0, right = camera.width() - 9.0, top = 9.0, bottom = camera.height() - 9.0;
+  canvas.stroke(std::array<Vec<2>, 5>{Vec<2>(left, top), Vec<2>(right, top), Vec<2>(right, bottom), Vec<2>(left, bottom), Vec<2>(left, top)}, 1.0, kSoftInk);
   for (const Vec<2>& p : on_map(snapshot.vantage, camera)) draw_diamond(canvas, p, 7.0);
   const std::array<Vec<2>, 1> next{snapshot.next};
   if (snapshot.has_next) draw_cross(canvas, on_map(next, camera)[0], 8.0);
@@ -53,7 +57,7 @@ Image metric_panel(const Moment& moment) {
   const Camera camera = Camera::map(map_box(moment.snapshot.state.window), kPanel);
   Image image = state_map(moment.snapshot.state, camera, kDarkStates);
   lay_over(image, metric_map(moment.snapshot.metric, moment.snapshot.state, camera));
-  return marked(std::move(image), moment.snapshot, camera);
+  return marked(image, moment.snapshot, camera);
 }
 
 Image steps_picture(const PaperFormula& formula, const PaperRun<2>& run, const std::vector<Moment>& moments) {
@@ -109,19 +113,19 @@ Json to_json(const PaperFormula& formula, const Tally& tally) {
 
 Image coverage_picture(const std::vector<Tally>& tallies) {
   Board board;
-  board.title = "Fig. 2 again: how much is seen after so many scans";
+  board.title = "Fig. 2 again: what is left after so many scans";
   board.note = fmt::format("mean over {} layouts of five blobs", tallies[0].runs.size());
-  Plot plot{"", "scans", "share of what can be seen [%]", false, 0.0, 100.0};
+  Plot plot{"", "scans", "not seen yet, of what can be seen [%]", true, 0.01, 100.0};
   for (std::size_t f = 0; f < tallies.size(); ++f) {
     PlotLine line{paper_formulas()[f].colour, PlotLine::Style::line, {}, {}};
     for (std::size_t scans = 1; scans <= 12; ++scans) {
       line.x.push_back(static_cast<double>(scans));
-      line.y.push_back(100.0 * tallies[f].seen_after(scans));
+      line.y.push_back(std::max(100.0 * (1.0 - tallies[f].seen_after(scans)), 0.01));
     }
     plot.lines.push_back(std::move(line));
     board.legend.push_back({Key::Sign::line, paper_formulas()[f].colour, paper_formulas()[f].label, {}});
   }
-  board.rows = {{"", {{plot_image(plot, 900, 460), {}}}}};
+  board.rows = {{"", {{plot_image(plot, 860, 440), {}}}}};
   return board_image(board);
 }
 

@@ -2,15 +2,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "paper_views.h"
+#include "vantage/geometry/angle.h"
 
 using namespace vantage;
 
 namespace {
 
 constexpr std::int64_t kMostScans = 12;
-constexpr int kSymmetries = 8;  ///< Mirrors of the three axes: what the ring of six and the box have in common.
+constexpr int kSymmetries = 8;  ///< Mirrors of the three axes: what an even ring and the box have in common.
 constexpr int kDraws = 400;
 
 Vec<3> mirrored(const Vec<3>& p, const Vec<3>& centre, int symmetry) {
@@ -65,6 +67,7 @@ double chance(const PaperPlace<3>& place, std::size_t count, const Vec<3>& centr
   return sum / kDraws;
 }
 
+/// One formula in one ring.
 struct Result {
   PaperRun<3> run;
   std::vector<Vec<3>> places;  ///< Up to 99 %.
@@ -72,66 +75,92 @@ struct Result {
   double chance = 0.0;  ///< [m]
 };
 
+/// All formulas in a ring of so many cylinders.
+struct Ring {
+  int cylinders = 0;
+  std::vector<Result> results;
+};
+
+Ring explored(const PaperPlace<3>& place, int cylinders, Observer& observer) {
+  const Vec<3> centre = place.scene().domain.center();
+  Ring ring{cylinders, {}};
+  for (const PaperFormula& formula : paper_formulas()) {
+    Result result;
+    result.run = explore_place(place, formula.variant, {kMostScans, 0.99, fmt::format("fig3: {} cylinders, {}", cylinders, formula.variant.name)}, observer);
+    result.places = stations_of(result.run);
+    result.symmetry = best_symmetry(result.places, centre);
+    result.chance = chance(place, result.places.size(), centre);
+    ring.results.push_back(std::move(result));
+  }
+  return ring;
+}
+
 Image stations_view(const PaperPlace<3>& place, const Result& result, const Camera& camera) {
   return with_stations(scene_picture(place.scene(), place.scene().domain, camera), result.places, camera);
 }
 
-Image picture(const PaperPlace<3>& place, const std::vector<Result>& results) {
+Image picture(const PaperPlace<3>& place, const Ring& ring) {
   const Box<3>& domain = place.scene().domain;
-  const Camera bird = view_camera(domain, {66.0, 32.0, 620, 400}), above = Camera::map(domain, {360, 360, 14.0});
+  const Camera above = Camera::map(domain, {330, 330, 14.0});
+  const auto outline = corners(domain);
+  const Camera bird = Camera::bird(domain, outline, radians(66.0), radians(38.0), {470, 330, 4.0});
   Board board;
-  board.title = "Fig. 3 again: six cylinders in a ring";
+  board.title = fmt::format("Fig. 3 again: {} cylinders in a ring", ring.cylinders);
   board.note = "vantage points until 99 % is seen, in a bird's view and from above; 0 is the start, in the middle";
-  for (std::size_t f = 2; f < results.size(); ++f) {
-    Canvas plan(stations_view(place, results[f], above));
+  for (std::size_t f = 2; f < ring.results.size(); ++f) {
+    Canvas plan(stations_view(place, ring.results[f], above));
     draw_scale(plan, {16.0, above.height() - 14.0}, 1.0 / above.pixel_size(1.0), 100.0);
-    board.rows.push_back({paper_formulas()[f].label, {{stations_view(place, results[f], bird), {}}, {plan.image(), {}}}});
+    board.rows.push_back({paper_formulas()[f].label, {{stations_view(place, ring.results[f], bird), {}}, {plan.image(), {}}}});
   }
   board.legend = {{Key::Sign::pin, {}, "vantage point with the number of its scan", {}}, {Key::Sign::area, {128, 158, 190}, "cylinder", {}}};
   return board_image(board);
 }
 
-Json to_json(const PaperFormula& formula, const Result& result) {
-  Json json{{"formula", formula.variant.name},      {"label", formula.label},
-            {"n99", count_json(result.run.scans_to(0.99))}, {"coverage", result.run.coverage},
+Json to_json(const Ring& ring, std::size_t f) {
+  const Result& result = ring.results[f];
+  Json json{{"cylinders", ring.cylinders},
+            {"formula", paper_formulas()[f].variant.name},
+            {"label", paper_formulas()[f].label},
+            {"n99", count_json(result.run.scans_to(0.99))},
+            {"coverage", result.run.coverage},
             {"symmetry", {{"mirrors", name_of(result.symmetry.which)}, {"defect_m", result.symmetry.defect}, {"chance_m", result.chance}}},
             {"vantage", Json::array()}};
   for (const Vec<3>& p : result.places) json["vantage"].push_back(vantage::to_json<3>(p));
   return json;
 }
 
-std::string table(const std::vector<Result>& results) {
+std::string table(const std::vector<Ring>& rings) {
+  std::vector<std::string> header{"E"};
+  for (const Ring& ring : rings) header.push_back(fmt::format("{} cylinders: scans to 99 %", ring.cylinders));
+  for (const Ring& ring : rings) header.push_back(fmt::format("{}: asymmetry (by chance)", ring.cylinders));
   std::vector<std::vector<std::string>> rows;
-  for (std::size_t f = 0; f < results.size(); ++f) {
-    const Result& r = results[f];
-    rows.push_back({paper_formulas()[f].label, count_text(r.run.scans_to(0.99)), fmt::format("{:.1f} %", 100.0 * r.run.coverage.back()),
-                    fmt::format("{:.2f} m ({})", r.symmetry.defect, name_of(r.symmetry.which)), fmt::format("{:.2f} m", r.chance)});
+  for (std::size_t f = 0; f < paper_formulas().size(); ++f) {
+    std::vector<std::string> row{paper_formulas()[f].label};
+    for (const Ring& ring : rings) row.push_back(count_text(ring.results[f].run.scans_to(0.99)));
+    for (const Ring& ring : rings) row.push_back(fmt::format("{:.1f} m ({:.1f} m)", ring.results[f].symmetry.defect, ring.results[f].chance));
+    rows.push_back(row);
   }
-  return "Fig. 3, six upright cylinders in a ring (`pipes:cylinders=6,symmetric=1`), start in the middle. Asymmetry: how far, on average, a vantage point's\n"
-         "mirror image (in the axes named) is from the nearest vantage point; last, the same of places drawn at random. The paper: \"notice also the symmetry of the\n"
-         "planned vantage point locations\", without a number.\n\n" +
-         markdown({"E", "scans to 99 %", "seen", "asymmetry", "by chance"}, rows);
+  return "Fig. 3, upright cylinders in a ring (`pipes:symmetric=1`), start in the middle. Asymmetry: how far, on average, a vantage point's mirror image is from\n"
+         "the nearest vantage point, by the mirrors that fit best; in brackets the same of places drawn at random. The paper has no number: \"notice also the\n"
+         "symmetry of the planned vantage point locations\".\n\n" +
+         markdown(header, rows);
 }
 
 }  // namespace
 
 PaperItem paper_fig3(const PaperSetup& setup, Observer& observer) {
-  const PaperPlace<3> place("pipes:cylinders=6,symmetric=1", {{"explore.grid", setup.quick ? "30" : "60", ""}, {"scene.start", "10,10,5", ""}}, setup);
-  const Vec<3> centre = place.scene().domain.center();
+  constexpr std::array<int, 4> kRings{4, 6, 8, 12};
   PaperItem item;
-  item.json = {{"figure", "fig3"}, {"scene", "pipes:cylinders=6,symmetric=1"}, {"paper", Json::object()}, {"rows", Json::array()}};
-  std::vector<Result> results;
-  for (const PaperFormula& formula : paper_formulas()) {
-    Result result;
-    result.run = explore_place(place, formula.variant, {kMostScans, 0.99, "fig3: " + formula.variant.name}, observer);
-    result.places = stations_of(result.run);
-    result.symmetry = best_symmetry(result.places, centre);
-    result.chance = chance(place, result.places.size(), centre);
-    item.json["rows"].push_back(to_json(formula, result));
-    results.push_back(std::move(result));
+  item.json = {{"figure", "fig3"}, {"scene", "pipes:symmetric=1"}, {"paper", Json::object()}, {"rows", Json::array()}};
+  std::vector<Ring> rings;
+  for (const int cylinders : std::span(kRings).first(setup.quick ? 1 : kRings.size())) {
+    const std::string scene = fmt::format("pipes:cylinders={},symmetric=1", cylinders);
+    const PaperPlace<3> place(scene, {{"explore.grid", setup.quick ? "30" : "60", ""}, {"scene.start", "10,10,5", ""}}, setup);
+    rings.push_back(explored(place, cylinders, observer));
+    for (std::size_t f = 0; f < paper_formulas().size(); ++f) item.json["rows"].push_back(to_json(rings.back(), f));
+    if (setup.pictures && (cylinders == 8 || setup.quick)) item.add_picture("fig3.png", picture(place, rings.back()));
   }
-  item.text = table(results);
-  if (setup.pictures) item.add_picture("fig3.png", picture(place, results));
+  item.text = table(rings);
   item.add_texts("fig3");
   return item;
 }

@@ -12,7 +12,7 @@ using namespace vantage;
 
 namespace {
 
-constexpr std::int64_t kMostScans = 20;
+constexpr std::int64_t kMostScans = 16;
 constexpr double kEnough = 0.99;
 
 /// What one formula needs for so many cylinders.
@@ -75,12 +75,12 @@ Json to_json(const PaperFormula& formula, const Series& series) {
 }
 
 Tile decay_tile(const std::vector<Series>& all, int cylinders) {
-  Plot plot{fmt::format("decay of the metric, {} cylinders", cylinders), "scans", "max E / max E after the first scan", true, 1e-3, 1.0};
+  Plot plot{fmt::format("decay of the metric, {} cylinders", cylinders), "scans", "max E over its value after the first scan", true, 5e-4, 2.0};
   for (std::size_t f = 0; f < all.size(); ++f) {
     PlotLine line{paper_formulas()[f].colour, PlotLine::Style::line, {}, {}};
     for (std::size_t k = 0; k < std::min<std::size_t>(all[f].decay.size(), 16); ++k) {
       line.x.push_back(static_cast<double>(k + 1));
-      line.y.push_back(std::max(all[f].decay[k], 1e-3));
+      line.y.push_back(all[f].decay[k]);
     }
     plot.lines.push_back(std::move(line));
   }
@@ -111,9 +111,12 @@ Tile scans_tile(const std::vector<Series>& all) {
 Image picture(const std::vector<Series>& all, int cylinders) {
   Board board;
   board.title = "Fig. 4 again: cylinders in open space";
-  board.note = fmt::format("runs that do not reach 99 % count as {} scans; dashed: least squares", kMostScans);
+  board.note = fmt::format("E of the default: the expected new volume. Runs that do not reach 99 % count as {} scans. Dashed: least squares", kMostScans);
   board.rows = {{"", {decay_tile(all, cylinders), scans_tile(all)}}};
-  for (std::size_t f = 0; f < all.size(); ++f) board.legend.push_back({Key::Sign::line, paper_formulas()[f].colour, paper_formulas()[f].label, {}});
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    const auto& [variant, label, colour] = paper_formulas()[f];
+    board.legend.push_back({Key::Sign::line, colour, fmt::format("{}: {:.2f} scans a cylinder, R² {:.2f}", label, all[f].line.slope, all[f].line.r2), {}});
+  }
   return board_image(board);
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "vantage/audit/coverage.h"
 #include "vantage/base/error.h"
 #include "vantage/geometry/angle.h"
@@ -58,7 +60,10 @@ void PaperItem::add_texts(const std::string& name) {
   files.emplace_back(name + ".json", as_text(json));
 }
 
-void PaperItem::add_picture(const std::string& name, const Image& image) { files.emplace_back(name, png(image)); }
+void PaperItem::add_picture(const std::string& name, Image image) {
+  for (std::uint8_t& channel : image.rgba) channel = static_cast<std::uint8_t>(std::min(255, (channel + 4) / 8 * 8));
+  files.emplace_back(name, png(image));
+}
 
 const std::vector<PaperFormula>& paper_formulas() {
   static const std::vector<PaperFormula> all = [] {

@@ -14,6 +14,7 @@ using namespace vantage;
 namespace {
 
 constexpr double kLow = 0.2;  ///< Of the colours of heights.
+constexpr Rgb kSky{219, 225, 233};
 
 Rgb colour_of_kind(const std::string& kind) {
   constexpr std::array<std::pair<std::string_view, Rgb>, 10> kinds{{{"ground", {206, 203, 190}},
@@ -31,31 +32,58 @@ Rgb colour_of_kind(const std::string& kind) {
   return {196, 192, 184};
 }
 
-bool meets(const Mesh<3>& mesh, const Mesh<3>::Facet& facet, const Box<3>& frame) {
-  Box<3> box;
-  for (const std::uint32_t corner : facet) box.extend(mesh.vertices[corner]);
-  return !box.intersection(frame).empty();
+using Polygon = std::vector<Vec<3>>;
+
+/// The part with `sign * (p[axis] - limit) >= 0` (Sutherland and Hodgman 1974).
+Polygon cut(const Polygon& polygon, int axis, double sign, double limit) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec<3>&a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double da = sign * (a[axis] - limit), db = sign * (b[axis] - limit);
+    if (da >= 0.0) kept.push_back(a);
+    if ((da >= 0.0) != (db >= 0.0)) kept.emplace_back(a + da / (da - db) * (b - a));
+  }
+  return kept;
+}
+
+/// The facets within the frame, as triangles.
+struct Cut {
+  Mesh<3> mesh;
+  std::vector<Rgb> colours;
+};
+
+Cut cut_scene(const Scene<3>& scene, const Box<3>& frame) {
+  Cut result;
+  const auto add = [&](const Polygon& polygon, Rgb colour) {
+    const auto first = static_cast<std::uint32_t>(result.mesh.vertices.size());
+    result.mesh.vertices.insert(result.mesh.vertices.end(), polygon.begin(), polygon.end());
+    for (std::uint32_t k = 2; k < polygon.size(); ++k) {
+      result.mesh.facets.push_back({first, first + k - 1, first + k});
+      result.colours.push_back(colour);
+    }
+  };
+  for (const Scene<3>::Part& part : scene.parts) {
+    for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
+      Polygon polygon;
+      for (const std::uint32_t corner : scene.mesh.facets[i]) polygon.push_back(scene.mesh.vertices[corner]);
+      for (int axis = 0; axis < 3; ++axis) polygon = cut(cut(polygon, axis, 1.0, frame.low[axis]), axis, -1.0, frame.high[axis]);
+      add(polygon, colour_of_kind(part.name));
+    }
+  }
+  return result;
 }
 
 }  // namespace
 
-Camera view_camera(const Box<3>& frame, const PaperView& view) {
-  const auto outline = corners(frame);
+Camera view_camera(const Scene<3>& scene, const Box<3>& frame, const PaperView& view) {
+  const std::vector<Vec<3>> outline = cut_scene(scene, frame).mesh.vertices;
   return Camera::bird(frame, outline, radians(view.azimuth_deg), radians(view.elevation_deg), {view.width, view.height, 14.0});
 }
 
 Image scene_picture(const Scene<3>& scene, const Box<3>& frame, const Camera& camera) {
-  Mesh<3> mesh{scene.mesh.vertices, {}};
-  std::vector<Rgb> colours;
-  for (const Scene<3>::Part& part : scene.parts) {
-    for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
-      if (!meets(scene.mesh, scene.mesh.facets[i], frame)) continue;
-      mesh.facets.push_back(scene.mesh.facets[i]);
-      colours.push_back(colour_of_kind(part.name));
-    }
-  }
+  const Cut cut = cut_scene(scene, frame);
   Raster raster(camera);
-  draw_mesh(raster, mesh, colours);
+  draw_mesh(raster, cut.mesh, cut.colours);
   return resolved(raster, {0.9});
 }
 
@@ -85,7 +113,7 @@ Image patches_picture(std::span<const Patch<3>> patches, const Box<3>& frame, co
 }
 
 Image on_plate(const Image& picture) {
-  Canvas canvas(picture.width, picture.height, kPlate);
+  Canvas canvas(picture.width, picture.height, kSky);
   canvas.lay(picture, 0, 0);
   return canvas.image();
 }

@@ -10,10 +10,10 @@ struct PaperView {
   int width = 620, height = 440;
 };
 
-/// A camera that holds `frame`.
-[[nodiscard]] vantage::Camera view_camera(const vantage::Box<3>& frame, const PaperView& view);
+/// A camera that holds all of the scene within `frame`.
+[[nodiscard]] vantage::Camera view_camera(const vantage::Scene<3>& scene, const vantage::Box<3>& frame, const PaperView& view);
 
-/// The true scene, each kind of thing in its colour; facets beyond `frame` are left out.
+/// The true scene, each kind of thing in its colour, cut at `frame`.
 [[nodiscard]] vantage::Image scene_picture(const vantage::Scene<3>& scene, const vantage::Box<3>& frame, const vantage::Camera& camera);
 /// What was taken for an obstacle in clay, and the shadow boundary that was left.
 [[nodiscard]] vantage::Image visibility_picture(const vantage::Field<3>& psi, const vantage::Field<3, vantage::NodeState>& state,

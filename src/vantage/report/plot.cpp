@@ -60,7 +60,7 @@ Frame fitted(const Plot& plot, double width, double height) {
   Frame frame{width, height, x_low, std::max(x_high, x_low + 1.0)};
   frame.logarithmic = plot.logarithmic;
   for (const double tick : round_ticks(frame.x_low, frame.x_high, 8))
-    if (tick >= frame.x_low - 1e-9 && tick <= frame.x_high + 1e-9) frame.x_ticks.push_back(tick);
+    if (tick >= frame.x_low - 1e-9 && tick <= frame.x_high + 1e-9 && (!plot.whole || tick == std::floor(tick))) frame.x_ticks.push_back(tick);
   if (plot.logarithmic)
     frame.y_ticks = powers(plot.high > plot.low ? plot.low : y_low, plot.high > plot.low ? plot.high : y_high);
   else if (plot.high > plot.low)
@@ -69,6 +69,11 @@ Frame fitted(const Plot& plot, double width, double height) {
     frame.y_ticks = round_ticks(std::min(y_low, 0.0), y_high > 0.0 ? y_high : 1.0, 5);
   frame.y_low = frame.y_ticks.front();
   frame.y_high = frame.y_ticks.back();
+  if (plot.logarithmic && plot.high > plot.low) {
+    frame.y_low = plot.low;
+    frame.y_high = plot.high;
+    std::erase_if(frame.y_ticks, [&](double tick) { return tick < plot.low || tick > plot.high; });
+  }
   return frame;
 }
 
