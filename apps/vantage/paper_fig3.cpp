@@ -101,16 +101,15 @@ Image stations_view(const PaperPlace<3>& place, const Result& result, const Came
 
 Image picture(const PaperPlace<3>& place, const Ring& ring) {
   const Box<3>& domain = place.scene().domain;
-  const Camera above = Camera::map(domain, {330, 330, 14.0});
   const auto outline = corners(domain);
-  const Camera bird = Camera::bird(domain, outline, radians(66.0), radians(38.0), {470, 330, 4.0});
+  const Camera above = Camera::map(domain, {300, 300, 14.0}), bird = Camera::bird(domain, outline, radians(66.0), radians(38.0), {300, 300, 4.0});
   Board board;
   board.title = fmt::format("Fig. 3 again: {} cylinders in a ring", ring.cylinders);
-  board.note = "vantage points until 99 % is seen, in a bird's view and from above; 0 is the start, in the middle";
-  for (std::size_t f = 2; f < ring.results.size(); ++f) {
-    Canvas plan(stations_view(place, ring.results[f], above));
-    draw_scale(plan, {16.0, above.height() - 14.0}, 1.0 / above.pixel_size(1.0), 100.0);
-    board.rows.push_back({paper_formulas()[f].label, {{stations_view(place, ring.results[f], bird), {}}, {plan.image(), {}}}});
+  board.note = "vantage points until 99 % is seen; 0 is the start, in the middle";
+  board.rows = {{"bird's view", {}}, {fmt::format("from above, {:.0f} m x {:.0f} m", domain.size().x(), domain.size().y()), {}}};
+  for (std::size_t f = 0; f < ring.results.size(); ++f) {
+    board.rows[0].tiles.push_back({stations_view(place, ring.results[f], bird), {}});
+    board.rows[1].tiles.push_back({stations_view(place, ring.results[f], above), paper_formulas()[f].label});
   }
   board.legend = {{Key::Sign::pin, {}, "vantage point with the number of its scan", {}}, {Key::Sign::area, {128, 158, 190}, "cylinder", {}}};
   return board_image(board);
@@ -158,7 +157,7 @@ PaperItem paper_fig3(const PaperSetup& setup, Observer& observer) {
     const PaperPlace<3> place(scene, {{"explore.grid", setup.quick ? "30" : "60", ""}, {"scene.start", "10,10,5", ""}}, setup);
     rings.push_back(explored(place, cylinders, observer));
     for (std::size_t f = 0; f < paper_formulas().size(); ++f) item.json["rows"].push_back(to_json(rings.back(), f));
-    if (setup.pictures && (cylinders == 8 || setup.quick)) item.add_picture("fig3.png", picture(place, rings.back()));
+    if (setup.pictures && cylinders == kRings[0]) item.add_picture("fig3.png", picture(place, rings.back()));
   }
   item.text = table(rings);
   item.add_texts("fig3");

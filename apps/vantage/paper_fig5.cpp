@@ -12,7 +12,7 @@ namespace {
 
 Image picture(const PaperPlace<3>& place, const SiteRun& ours) {
   const Box<3>& domain = place.scene().domain;
-  const Camera camera = view_camera(place.scene(), domain, {66.0, 34.0, 540, 400});
+  const Camera camera = view_camera(place.scene(), domain, {66.0, 34.0, 455, 400});
   const SiteMap& map = ours.map;
   Board board;
   board.title = "Fig. 5 again: the patio";

@@ -90,7 +90,7 @@ Kind found_of(const Scene<3>& scene, const std::string& name, const Field<3, Nod
 }
 
 Image picture(const PaperPlace<3>& place, const SiteRun& ours) {
-  const Camera camera = view_camera(place.scene(), place.scene().domain, {80.0, 18.0, 1000, 560});
+  const Camera camera = view_camera(place.scene(), place.scene().domain, {80.0, 18.0, 860, 560});
   Board board;
   board.title = "Fig. 6 again: the patio, close up";
   board.note = fmt::format("below: the border of what {} scans have seen, on a lattice of {:.2f} m", ours.map.stations.size(), ours.map.state.window.spacing);

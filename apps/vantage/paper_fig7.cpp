@@ -36,7 +36,7 @@ Rebuilt rebuilt(const std::vector<std::vector<Vec<3>>>& hits) {
 Image picture(const PaperPlace<3>& place, const SiteRun& ours, const Rebuilt& surface) {
   const Box<3>& domain = place.scene().domain;
   const Box<3> around = domain.grown(15.0).intersection(place.scene().mesh.bounds());
-  const Camera near = view_camera(place.scene(), domain, {66.0, 36.0, 520, 420});
+  const Camera near = view_camera(place.scene(), domain, {66.0, 36.0, 430, 420});
   const Camera far = view_camera(place.scene(), around, {66.0, 36.0, 2 * near.width() + 14, 900});
   Board board;
   board.title = "Fig. 7 again: church and houses";

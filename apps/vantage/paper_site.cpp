@@ -83,7 +83,7 @@ std::string site_table(const PaperSite& site, const PaperPlace<3>& place, const 
     rows.push_back({run.label, run.run.finished ? std::to_string(run.run.steps.size()) : fmt::format("> {}", run.run.steps.size()),
                     grouped(run.points(scans, place.scene().mesh.bounds()) / scans), share_text(run.seen_after(site.scans)),
                     count_text(run.run.scans_to(0.90)), count_text(run.run.scans_to(0.95)), count_text(run.run.scans_to(kEnough)),
-                    fmt::format("{:.0f} m³", run.falsely_free)});
+                    fmt::format("{:.1f} m³", run.falsely_free)});
   }
   return markdown({"E", "scans in all", "points a scan", fmt::format("seen after {}", site.scans), "scans to 90 %", "95 %", "99 %", "falsely seen"}, rows);
 }
