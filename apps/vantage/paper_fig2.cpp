@@ -35,7 +35,8 @@ Image marked(const Image& image, const Snapshot<2>& snapshot, const Camera& came
   Canvas canvas(image.width, image.height, {255, 255, 255});
   canvas.lay(image, 0, 0);
   const double left = 9.0, right = camera.width() - 9.0, top = 9.0, bottom = camera.height() - 9.0;
-  canvas.stroke(std::array<Vec<2>, 5>{Vec<2>(left, top), Vec<2>(right, top), Vec<2>(right, bottom), Vec<2>(left, bottom), Vec<2>(left, top)}, 1.0, kSoftInk);
+  canvas.stroke(std::array<Vec<2>, 5>{Vec<2>(left, top), Vec<2>(right, top), Vec<2>(right, bottom), Vec<2>(left, bottom), Vec<2>(left, top)}, 1.0,
+                kSoftInk);
   for (const Vec<2>& p : on_map(snapshot.vantage, camera)) draw_diamond(canvas, p, 7.0);
   const std::array<Vec<2>, 1> next{snapshot.next};
   if (snapshot.has_next) draw_cross(canvas, on_map(next, camera)[0], 8.0);
@@ -72,7 +73,8 @@ Image steps_picture(const PaperFormula& formula, const PaperRun<2>& run, const s
     const Moment& moment = last ? moments.back() : moments[k];
     const auto scan = static_cast<std::size_t>(moment.snapshot.step);
     board.rows[0].tiles.push_back({known_panel(moment), {}});
-    board.rows[1].tiles.push_back({metric_panel(moment), fmt::format("{} scan{}: {:.1f} % seen", scan + 1, scan == 0 ? "" : "s", 100.0 * run.coverage[scan])});
+    board.rows[1].tiles.push_back(
+        {metric_panel(moment), fmt::format("{} scan{}: {:.1f} % seen", scan + 1, scan == 0 ? "" : "s", 100.0 * run.coverage[scan])});
   }
   board.legend = {{Key::Sign::line, kOutline, "outline rebuilt from the scans", {}},
                   {Key::Sign::diamond, {}, "vantage points", {}},
@@ -104,8 +106,8 @@ struct Tally {
 };
 
 Json to_json(const PaperFormula& formula, const Tally& tally) {
-  Json json{{"formula", formula.variant.name}, {"label", formula.label},           {"layouts", tally.runs.size()},
-            {"n95_mean", tally.mean(0.95)},    {"n99_mean", tally.mean(0.99)},     {"reached_95", tally.reached(0.95)},
+  Json json{{"formula", formula.variant.name},   {"label", formula.label},       {"layouts", tally.runs.size()},
+            {"n95_mean", tally.mean(0.95)},      {"n99_mean", tally.mean(0.99)}, {"reached_95", tally.reached(0.95)},
             {"reached_99", tally.reached(0.99)}, {"coverage", Json::array()}};
   for (const auto& run : tally.runs) json["coverage"].push_back(run.coverage);
   return json;
@@ -136,7 +138,8 @@ std::string table(const std::vector<Tally>& tallies) {
     const auto reach = [&](double share) { return fmt::format("{:.1f} ({} of {})", tally.mean(share), tally.reached(share), tally.runs.size()); };
     rows.push_back({paper_formulas()[f].label, fmt::format("{:.1f} %", 100.0 * tally.seen_after(5)), reach(0.95), reach(0.99)});
   }
-  return "Fig. 2, the step-by-step run in the plane (`planar`, 100 x 100 nodes, scans of 0.5 degrees). Mean scans over the layouts; in brackets the runs that got\n" +
+  return "Fig. 2, the step-by-step run in the plane (`planar`, 100 x 100 nodes, scans of 0.5 degrees). Mean scans over the layouts; in brackets the "
+         "runs that got\n" +
          fmt::format("there, the others count as {}. The paper prints no number; its picture ends with the plane seen.\n\n", kMostScans) +
          markdown({"E", "seen after 5 scans", "scans to 95 %", "scans to 99 %"}, rows);
 }

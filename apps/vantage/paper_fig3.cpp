@@ -86,7 +86,8 @@ Ring explored(const PaperPlace<3>& place, int cylinders, Observer& observer) {
   Ring ring{cylinders, {}};
   for (const PaperFormula& formula : paper_formulas()) {
     Result result;
-    result.run = explore_place(place, formula.variant, {kMostScans, 0.99, fmt::format("fig3: {} cylinders, {}", cylinders, formula.variant.name)}, observer);
+    result.run =
+        explore_place(place, formula.variant, {kMostScans, 0.99, fmt::format("fig3: {} cylinders, {}", cylinders, formula.variant.name)}, observer);
     result.places = stations_of(result.run);
     result.symmetry = best_symmetry(result.places, centre);
     result.chance = chance(place, result.places.size(), centre);
@@ -130,18 +131,21 @@ Json to_json(const Ring& ring, std::size_t f) {
 
 std::string table(const std::vector<Ring>& rings) {
   std::vector<std::string> header{"E"};
-  for (const Ring& ring : rings) header.push_back(fmt::format("{} cylinders: scans to 99 %", ring.cylinders));
-  for (const Ring& ring : rings) header.push_back(fmt::format("{}: asymmetry (by chance)", ring.cylinders));
+  for (const Ring& ring : rings) header.push_back(fmt::format("{} cylinders", ring.cylinders));
   std::vector<std::vector<std::string>> rows;
   for (std::size_t f = 0; f < paper_formulas().size(); ++f) {
     std::vector<std::string> row{paper_formulas()[f].label};
-    for (const Ring& ring : rings) row.push_back(count_text(ring.results[f].run.scans_to(0.99)));
-    for (const Ring& ring : rings) row.push_back(fmt::format("{:.1f} m ({:.1f} m)", ring.results[f].symmetry.defect, ring.results[f].chance));
+    for (const Ring& ring : rings) {
+      const Result& r = ring.results[f];
+      row.push_back(fmt::format("{}; {:.1f} m ({:.1f} m)", count_text(r.run.scans_to(0.99)), r.symmetry.defect, r.chance));
+    }
     rows.push_back(row);
   }
-  return "Fig. 3, upright cylinders in a ring (`pipes:symmetric=1`), start in the middle. Asymmetry: how far, on average, a vantage point's mirror image is from\n"
-         "the nearest vantage point, by the mirrors that fit best; in brackets the same of places drawn at random. The paper has no number: \"notice also the\n"
-         "symmetry of the planned vantage point locations\".\n\n" +
+  return "Fig. 3, upright cylinders in a ring (`pipes:symmetric=1`), start in the middle: scans to 99 %; then asymmetry, how far on average a "
+         "vantage point's mirror\n"
+         "image is from the nearest vantage point, by the mirrors that fit best; in brackets the same of places drawn at random. The paper has no "
+         "number: \"notice\n"
+         "also the symmetry of the planned vantage point locations\".\n\n" +
          markdown(header, rows);
 }
 

@@ -49,8 +49,8 @@ Line fit(const std::vector<Need>& needs) {
 /// One formula over all scenes, and how its metric decays in the largest.
 struct Series {
   std::vector<Need> needs;
-  std::vector<double> decay;      ///< Largest metric after each scan over that after the first [1].
-  std::vector<double> coverage;   ///< In that run [1].
+  std::vector<double> decay;     ///< Largest metric after each scan over that after the first [1].
+  std::vector<double> coverage;  ///< In that run [1].
   Line line;
 };
 
@@ -64,8 +64,14 @@ std::vector<double> decay_of(const PaperRun<3>& run, const std::string& variant)
 }
 
 Json to_json(const PaperFormula& formula, const Series& series) {
-  Json json{{"formula", formula.variant.name}, {"label", formula.label},        {"slope", series.line.slope}, {"intercept", series.line.intercept},
-            {"r2", series.line.r2},            {"scans", Json::array()}, {"decay", series.decay},      {"coverage", series.coverage}};
+  Json json{{"formula", formula.variant.name},
+            {"label", formula.label},
+            {"slope", series.line.slope},
+            {"intercept", series.line.intercept},
+            {"r2", series.line.r2},
+            {"scans", Json::array()},
+            {"decay", series.decay},
+            {"coverage", series.coverage}};
   for (const Need& need : series.needs) {
     Json row{{"cylinders", need.cylinders}, {"mean", need.mean()}, {"layouts", Json::array()}};
     for (const auto& scans : need.scans) row["layouts"].push_back(count_json(scans));
@@ -111,11 +117,13 @@ Tile scans_tile(const std::vector<Series>& all) {
 Image picture(const std::vector<Series>& all, int cylinders) {
   Board board;
   board.title = "Fig. 4 again: cylinders in open space";
-  board.note = fmt::format("E of the default: the expected new volume. Runs that do not reach 99 % count as {} scans. Dashed: least squares", kMostScans);
+  board.note =
+      fmt::format("E of the default: the expected new volume. Runs that do not reach 99 % count as {} scans. Dashed: least squares", kMostScans);
   board.rows = {{"", {decay_tile(all, cylinders), scans_tile(all)}}};
   for (std::size_t f = 0; f < all.size(); ++f) {
     const auto& [variant, label, colour] = paper_formulas()[f];
-    board.legend.push_back({Key::Sign::line, colour, fmt::format("{}: {:.2f} scans a cylinder, R² {:.2f}", label, all[f].line.slope, all[f].line.r2), {}});
+    board.legend.push_back(
+        {Key::Sign::line, colour, fmt::format("{}: {:.2f} scans a cylinder, R² {:.2f}", label, all[f].line.slope, all[f].line.r2), {}});
   }
   return board_image(board);
 }
@@ -134,7 +142,8 @@ std::string table(const std::vector<Series>& all, std::size_t layouts) {
     rows.push_back(row);
   }
   return fmt::format(
-             "Fig. 4, cylinders in open space (`pipes`). Scans until 99 % of what can be seen is seen, by the number of cylinders, mean of {} layout{}; runs\n"
+             "Fig. 4, cylinders in open space (`pipes`). Scans until 99 % of what can be seen is seen, by the number of cylinders, mean of {} "
+             "layout{}; runs\n"
              "that do not get there count as {}. The paper prints no slope: \"the number of vantage points needed seem to grow linearly\".\n\n",
              layouts, layouts == 1 ? "" : "s", kMostScans) +
          markdown(header, rows);
@@ -153,7 +162,8 @@ PaperItem paper_fig4(const PaperSetup& setup, Observer& observer) {
       const bool decays = n == most && layout == 1;
       for (std::size_t f = 0; f < all.size(); ++f) {
         const Variant& variant = paper_formulas()[f].variant;
-        const PaperLimits limits{kMostScans, decays ? 2.0 : kEnough, fmt::format("fig4: layout {} of {}, {} cylinders, {}", layout, layouts, n, variant.name)};
+        const PaperLimits limits{kMostScans, decays ? 2.0 : kEnough,
+                                 fmt::format("fig4: layout {} of {}, {} cylinders, {}", layout, layouts, n, variant.name)};
         const PaperRun<3> run = explore_place(place, variant, limits, observer);
         all[f].needs[static_cast<std::size_t>(n - 1)].scans.push_back(run.scans_to(kEnough));
         if (!decays) continue;

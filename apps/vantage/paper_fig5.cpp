@@ -3,8 +3,8 @@
 
 #include "paper_site.h"
 #include "paper_views.h"
-#include "vantage/report/unseen_faces.h"
 #include "vantage/report/solids.h"
+#include "vantage/report/unseen_faces.h"
 
 using namespace vantage;
 
@@ -19,13 +19,14 @@ Image picture(const PaperPlace<3>& place, const SiteRun& ours) {
   board.note = fmt::format("{} scans, {} of what can be seen; lattice {} x {} x {}, {:.2f} m; η = 0.4 m, 0.02 of the side", map.stations.size(),
                            fmt::format("{:.1f} %", 100.0 * ours.seen_after(std::ssize(map.stations))), map.state.window.extent.x(),
                            map.state.window.extent.y(), map.state.window.extent.z(), map.state.window.spacing);
-  board.rows = {{"",
-                 {{on_plate(scene_picture(place.scene(), domain, camera)), "the scene"},
-                  {with_stations(visibility_picture(map.psi, map.state, camera), map.stations, camera), "integrated visibility: the border of what was seen"}}},
-                {"",
-                 {{on_plate(points_picture(map.hits, domain, camera)),
-                   fmt::format("{} points, coloured by height", grouped(ours.points(std::ssize(map.stations), domain)))},
-                  {on_plate(patches_picture(map.patches, domain, camera)), fmt::format("coarse reconstruction: {} fits", grouped(map.surface.fits))}}}};
+  board.rows = {
+      {"",
+       {{on_plate(scene_picture(place.scene(), domain, camera)), "the scene"},
+        {with_stations(visibility_picture(map.psi, map.state, camera), map.stations, camera), "integrated visibility: the border of what was seen"}}},
+      {"",
+       {{on_plate(points_picture(map.hits, domain, camera)),
+         fmt::format("{} points, coloured by height", grouped(ours.points(std::ssize(map.stations), domain)))},
+        {on_plate(patches_picture(map.patches, domain, camera)), fmt::format("coarse reconstruction: {} fits", grouped(map.surface.fits))}}}};
   board.legend = {{Key::Sign::pin, {}, "vantage point", {}},
                   {Key::Sign::area, kClay, "obstacle", {}},
                   {Key::Sign::area, kUnseenColour, "shadow boundary", {}},
@@ -44,7 +45,8 @@ PaperItem paper_fig5(const PaperSetup& setup, Observer& observer) {
   item.json = site_json(site, place, runs);
   item.json["surface"] = vantage::to_json(ours.map.surface);
   item.text = fmt::format(
-                  "Fig. 5, the patio within 20 m, a 60^3 grid (h = {:.2f} m), η = 0.4 m (0.02 of the side), half-degree scans of 80 m. \"Scans in all\": until the\n"
+                  "Fig. 5, the patio within 20 m, a 60^3 grid (h = {:.2f} m), η = 0.4 m (0.02 of the side), half-degree scans of 80 m. \"Scans in "
+                  "all\": until the\n"
                   "planner stops by itself. Falsely seen: called seen though no reachable place sees it, after {} scans.\n\n",
                   ours.map.state.window.spacing, site.scans) +
               site_table(site, place, runs);

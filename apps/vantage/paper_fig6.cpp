@@ -93,10 +93,12 @@ Image picture(const PaperPlace<3>& place, const SiteRun& ours) {
   const Camera camera = view_camera(place.scene(), place.scene().domain, {80.0, 18.0, 860, 560});
   Board board;
   board.title = "Fig. 6 again: the patio, close up";
-  board.note = fmt::format("below: the border of what {} scans have seen, on a lattice of {:.2f} m", ours.map.stations.size(), ours.map.state.window.spacing);
+  board.note =
+      fmt::format("below: the border of what {} scans have seen, on a lattice of {:.2f} m", ours.map.stations.size(), ours.map.state.window.spacing);
   board.rows = {{"", {{on_plate(scene_picture(place.scene(), place.scene().domain, camera)), "the scene"}}},
                 {"", {{on_plate(visibility_picture(ours.map.psi, ours.map.state, camera)), "coarse reconstruction from the visibility"}}}};
-  board.legend = {{Key::Sign::area, kClay, "obstacle, wider than the thing by η", {}}, {Key::Sign::area, kUnseenColour, "shadow boundary that is left", {}}};
+  board.legend = {{Key::Sign::area, kClay, "obstacle, wider than the thing by η", {}},
+                  {Key::Sign::area, kUnseenColour, "shadow boundary that is left", {}}};
   return board_image(board);
 }
 
@@ -112,15 +114,18 @@ PaperItem paper_fig6(const PaperSetup& setup, Observer& observer) {
   item.json["surface_to_truth_m"] = {{"mean", spread.mean()}, {"p95", spread.quantile(0.95)}, {"max", spread.quantile(1.0)}};
   item.json["found"] = Json::array();
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [name, words] : {std::pair{"tree", "trees, trunk and crown"}, std::pair{"column", "columns and posts"}, std::pair{"furniture", "tables and benches"},
-                                    std::pair{"wall", "low walls"}, std::pair{"house", "building, its rooms too"}}) {
+  for (const auto& [name, words] :
+       {std::pair{"tree", "trees, trunk and crown"}, std::pair{"column", "columns and posts"}, std::pair{"furniture", "tables and benches"},
+        std::pair{"wall", "low walls"}, std::pair{"house", "building, its rooms too"}}) {
     const Kind kind = found_of(place.scene(), name, ours.map.state);
     item.json["found"].push_back({{"kind", name}, {"share", kind.found}, {"apart", kind.apart}, {"places", kind.places}});
     rows.push_back({words, fmt::format("{:.1f} %", 100.0 * kind.found), fmt::format("{:.1f} %", 100.0 * kind.apart)});
   }
   item.text = fmt::format(
-                  "Fig. 6, the patio rebuilt from the visibility alone (the border of what {} scans have seen; h = {:.2f} m, η = 0.4 m). From it to the true surface:\n"
-                  "mean {:.2f} m, 95 % within {:.2f} m, at most {:.2f} m. The paper: \"even at this resolution the visibility algorithm is able to discern tree trunks,\n"
+                  "Fig. 6, the patio rebuilt from the visibility alone (the border of what {} scans have seen; h = {:.2f} m, η = 0.4 m). From it to "
+                  "the true surface:\n"
+                  "mean {:.2f} m, 95 % within {:.2f} m, at most {:.2f} m. The paper: \"even at this resolution the visibility algorithm is able to "
+                  "discern tree trunks,\n"
                   "columns and the tables\". Share of the true surface with an obstacle node\n"
                   "within h (found), and with seen space within 3 h (so that it stands apart):\n\n",
                   ours.map.stations.size(), ours.map.state.window.spacing, spread.mean(), spread.quantile(0.95), spread.quantile(1.0)) +

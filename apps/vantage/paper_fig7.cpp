@@ -36,18 +36,19 @@ Rebuilt rebuilt(const std::vector<std::vector<Vec<3>>>& hits) {
 Image picture(const PaperPlace<3>& place, const SiteRun& ours, const Rebuilt& surface) {
   const Box<3>& domain = place.scene().domain;
   const Box<3> around = domain.grown(15.0).intersection(place.scene().mesh.bounds());
-  const Camera near = view_camera(place.scene(), domain, {66.0, 36.0, 430, 420});
+  const Camera near = view_camera(place.scene(), domain, {66.0, 36.0, 415, 420});
   const Camera far = view_camera(place.scene(), around, {66.0, 36.0, 2 * near.width() + 14, 900});
   Board board;
   board.title = "Fig. 7 again: church and houses";
   board.note = fmt::format("{} scans, {} points; visibility on a lattice of {:.2f} m within 50 m", ours.map.stations.size(),
                            grouped(surface.statistics.points), ours.map.state.window.spacing);
-  board.rows = {{"",
-                 {{on_plate(scene_picture(place.scene(), domain, near)), "the scene"},
-                  {with_stations(visibility_picture(ours.map.psi, ours.map.state, near), ours.map.stations, near), "what was seen, and from where"}}},
-                {"",
-                 {{on_plate(patches_picture(surface.patches, around, far)),
-                   fmt::format("rebuilt from all points, also those outside: {} fits, η = {:.2f} m", grouped(surface.statistics.fits), surface.statistics.eta)}}}};
+  board.rows = {
+      {"",
+       {{on_plate(scene_picture(place.scene(), domain, near)), "the scene"},
+        {with_stations(visibility_picture(ours.map.psi, ours.map.state, near), ours.map.stations, near), "what was seen, and from where"}}},
+      {"",
+       {{on_plate(patches_picture(surface.patches, around, far)), fmt::format("rebuilt from all points, also those outside: {} fits, η = {:.2f} m",
+                                                                              grouped(surface.statistics.fits), surface.statistics.eta)}}}};
   board.legend = {{Key::Sign::pin, {}, "vantage point", {}},
                   {Key::Sign::area, kClay, "obstacle, surface", {}},
                   {Key::Sign::area, kUnseenColour, "shadow boundary: beyond it nothing was seen", {}}};
@@ -68,14 +69,17 @@ PaperItem paper_fig7(const PaperSetup& setup, Observer& observer) {
   item.json = site_json(site, place, runs);
   item.json["surface"] = vantage::to_json(s);
   item.text = fmt::format(
-                  "Fig. 7, church and houses within 50 m, a 60^3 grid (h = {:.2f} m), η = 0.2 m (0.004 of the side), half-degree scans of 80 m. Falsely seen: called\n"
+                  "Fig. 7, church and houses within 50 m, a 60^3 grid (h = {:.2f} m), η = 0.2 m (0.004 of the side), half-degree scans of 80 m. "
+                  "Falsely seen: called\n"
                   "seen though no reachable place sees it, after {} scans.\n\n",
                   ours.map.state.window.spacing, site.scans) +
               site_table(site, place, runs) +
-              fmt::format("\nRebuilt from all that ours scanned in {} scans, as the paper did: {} points (paper: {}), cube of {:.0f} m, η = {:.2f} m: {} nodes, {} leaves, "
-                          "{} fits\n(paper: 83,769, 73,298, 11,099), certified within {:.2f} m. `vantage paper table1` has the table.\n",
-                          ours.map.stations.size(), grouped(s.points), grouped(site.points), surface.cube.size()[0], s.eta, grouped(s.nodes), grouped(s.leaves),
-                          grouped(s.fits), s.certified());
+              fmt::format(
+                  "\nRebuilt from all that ours scanned in {} scans, as the paper did: {} points (paper: {}), cube of {:.0f} m, η = {:.2f} m: {} "
+                  "nodes, {} leaves, "
+                  "{} fits\n(paper: 83,769, 73,298, 11,099), certified within {:.2f} m. `vantage paper table1` has the table.\n",
+                  ours.map.stations.size(), grouped(s.points), grouped(site.points), surface.cube.size()[0], s.eta, grouped(s.nodes),
+                  grouped(s.leaves), grouped(s.fits), s.certified());
   if (setup.pictures) item.add_picture("fig7.png", picture(place, ours, surface));
   item.add_texts("fig7");
   return item;

@@ -55,11 +55,11 @@ struct PaperLimits {
   std::string title;         ///< For the progress: what this run is.
 };
 
-/// Explores `place`, judged by the truth after every scan; `after_step`, if given, may look at the explorer. Throws interrupted when `observer` asks to
-/// stop.
+/// Explores `place`, judged by the truth after every scan; `after_step`, if given, may look at the explorer. Throws interrupted when `observer` asks
+/// to stop.
 template <int Dim>
-[[nodiscard]] PaperRun<Dim> explore_place(const PaperPlace<Dim>& place, const Variant& variant, const PaperLimits& limits, vantage::Observer& observer,
-                                          const std::function<void(const vantage::Explorer<Dim>&)>& after_step = {});
+[[nodiscard]] PaperRun<Dim> explore_place(const PaperPlace<Dim>& place, const Variant& variant, const PaperLimits& limits,
+                                          vantage::Observer& observer, const std::function<void(const vantage::Explorer<Dim>&)>& after_step = {});
 
 /// `12` or, for never, a dash.
 [[nodiscard]] std::string count_text(const std::optional<std::int64_t>& count);

@@ -76,8 +76,7 @@ std::vector<SiteRun> explore_site_by_all(const PaperSite& site, const PaperPlace
 }
 
 std::string site_table(const PaperSite& site, const PaperPlace<3>& place, const std::vector<SiteRun>& runs) {
-  std::vector<std::vector<std::string>> rows{
-      {"the paper", std::to_string(site.scans), grouped(site.points / site.scans), "", "", "", "", ""}};
+  std::vector<std::vector<std::string>> rows{{"the paper", std::to_string(site.scans), grouped(site.points / site.scans), "", "", "", "", ""}};
   for (const SiteRun& run : runs) {
     const std::int64_t scans = std::min<std::int64_t>(site.scans, std::ssize(run.run.steps));
     rows.push_back({run.label, run.run.finished ? std::to_string(run.run.steps.size()) : fmt::format("> {}", run.run.steps.size()),
@@ -85,7 +84,8 @@ std::string site_table(const PaperSite& site, const PaperPlace<3>& place, const 
                     count_text(run.run.scans_to(0.90)), count_text(run.run.scans_to(0.95)), count_text(run.run.scans_to(kEnough)),
                     fmt::format("{:.1f} m³", run.falsely_free)});
   }
-  return markdown({"E", "scans in all", "points a scan", fmt::format("seen after {}", site.scans), "scans to 90 %", "95 %", "99 %", "falsely seen"}, rows);
+  return markdown({"E", "scans in all", "points a scan", fmt::format("seen after {}", site.scans), "scans to 90 %", "95 %", "99 %", "falsely seen"},
+                  rows);
 }
 
 Json site_json(const PaperSite& site, const PaperPlace<3>& place, const std::vector<SiteRun>& runs) {

@@ -157,7 +157,7 @@ TEST(LevelSurface, OfABallIsTheSphere) {
   for (const Vec<3>& v : surface.vertices) EXPECT_NEAR(v.norm(), Ball::kRadius, 0.3 * Ball::kSpacing);
   for (const auto& quad : surface.quads) {
     const Vec<3>&a = surface.vertices[quad.corners[0]], &b = surface.vertices[quad.corners[1]], &c = surface.vertices[quad.corners[2]],
-                &d = surface.vertices[quad.corners[3]];
+          &d = surface.vertices[quad.corners[3]];
     const Vec<3> u = c - a, v = d - b;
     area += 0.5 * Vec<3>(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x()).norm();
     const double height = 0.25 * (a + b + c + d).z();

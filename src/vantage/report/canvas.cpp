@@ -9,8 +9,8 @@ namespace vantage {
 
 namespace {
 
-constexpr double kUnits = 20.0;    ///< Of a letter in its size.
-constexpr double kSpacing = 3.6;   ///< Between letters [units].
+constexpr double kUnits = 20.0;              ///< Of a letter in its size.
+constexpr double kSpacing = 3.6;             ///< Between letters [units].
 constexpr double kThin = 1.75, kBold = 2.7;  ///< Strokes [units].
 
 double distance_to_piece(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {

@@ -22,8 +22,8 @@ struct LevelSurface {
   std::vector<Quad> quads;
 };
 
-/// The boundary of the occlusion set S = {psi <= 0} within the lattice, by surface nets (Gibson 1998): one vertex in every cell that it crosses, `relaxed`
-/// so many times towards its neighbours within the cell.
+/// The boundary of the occlusion set S = {psi <= 0} within the lattice, by surface nets (Gibson 1998): one vertex in every cell that it crosses,
+/// `relaxed` so many times towards its neighbours within the cell.
 [[nodiscard]] LevelSurface level_surface(const Field<3>& psi, const Field<3, NodeState>& state, int relaxed = 2);
 
 /// Draws it: known surface in `known`, shadow boundary in `unseen`, lit.

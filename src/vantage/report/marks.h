@@ -28,8 +28,8 @@ void draw_scale(Canvas& canvas, const Vec<2>& place, double pixels_per_metre, do
 struct Key {
   enum class Sign { area, hatch, line, dashed, dot, diamond, cross, pin, ramp } sign = Sign::area;
   Rgb colour;
-  std::string text;   ///< Behind the sign; of a ramp, its upper end.
-  std::string before; ///< Before the sign; of a ramp, its lower end.
+  std::string text;    ///< Behind the sign; of a ramp, its upper end.
+  std::string before;  ///< Before the sign; of a ramp, its lower end.
   ColourMap map = ColourMap::inferno;
   double map_low = 0.0;  ///< A ramp shows [map_low, 1] of its map.
 };

@@ -17,11 +17,11 @@ struct PlotLine {
 
 /// Axes and lines, drawn into pixels: a chart that stands alone as a file.
 struct Plot {
-  std::string title, x_label, y_label;     ///< Labels with their units.
-  bool logarithmic = false;                ///< Vertical axis.
-  double low = 0.0, high = 0.0;            ///< Of the vertical axis; equal: from the lines, and 0. Values beyond lie on its ends.
-  double x_low = 0.0, x_high = 0.0;        ///< Of the horizontal axis; equal: from the lines.
-  bool whole = true;                       ///< Whole numbers only at the horizontal axis.
+  std::string title, x_label, y_label;  ///< Labels with their units.
+  bool logarithmic = false;             ///< Vertical axis.
+  double low = 0.0, high = 0.0;         ///< Of the vertical axis; equal: from the lines, and 0. Values beyond lie on its ends.
+  double x_low = 0.0, x_high = 0.0;     ///< Of the horizontal axis; equal: from the lines.
+  bool whole = true;                    ///< Whole numbers only at the horizontal axis.
   std::vector<PlotLine> lines{};
 };
 
