@@ -43,13 +43,18 @@ Variant with_cones(const Variant& variant) {
   return cones;
 }
 
+/// Where points count.
+Box<3> counted_box(const PaperSite& site, const PaperPlace<3>& place) { return site.everything ? place.scene().mesh.bounds() : place.scene().domain; }
+
 std::string share_text(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
 }  // namespace
 
-PaperSite patio_site(const std::string& figure, bool quick) { return {figure, "patio", site_settings("0.4", quick), quick ? 4 : 16, 1769061}; }
+PaperSite patio_site(const std::string& figure, bool quick) { return {figure, "patio", site_settings("0.4", quick), quick ? 4 : 16, 1769061, false}; }
 
-PaperSite church_site(const std::string& figure, bool quick) { return {figure, "church", site_settings("0.2", quick), quick ? 4 : 11, 1896786}; }
+PaperSite church_site(const std::string& figure, bool quick) {
+  return {figure, "church", site_settings("0.2", quick), quick ? 4 : 11, 1896786, true};
+}
 
 double SiteRun::seen_after(std::int64_t scans) const {
   return run.coverage[static_cast<std::size_t>(std::min<std::int64_t>(scans, std::ssize(run.coverage)) - 1)];
@@ -80,7 +85,7 @@ std::string site_table(const PaperSite& site, const PaperPlace<3>& place, const 
   for (const SiteRun& run : runs) {
     const std::int64_t scans = std::min<std::int64_t>(site.scans, std::ssize(run.run.steps));
     rows.push_back({run.label, run.run.finished ? std::to_string(run.run.steps.size()) : fmt::format("> {}", run.run.steps.size()),
-                    grouped(run.points(scans, place.scene().mesh.bounds()) / scans), share_text(run.seen_after(site.scans)),
+                    grouped(run.points(scans, counted_box(site, place)) / scans), share_text(run.seen_after(site.scans)),
                     count_text(run.run.scans_to(0.90)), count_text(run.run.scans_to(0.95)), count_text(run.run.scans_to(kEnough)),
                     fmt::format("{:.1f} m³", run.falsely_free)});
   }
@@ -101,8 +106,7 @@ Json site_json(const PaperSite& site, const PaperPlace<3>& place, const std::vec
                             {"label", run.label},
                             {"scans", run.run.steps.size()},
                             {"finished", run.run.finished},
-                            {"points", run.points(site.scans, place.scene().mesh.bounds())},
-                            {"points_in_domain", run.points(site.scans, place.scene().domain)},
+                            {"points", run.points(site.scans, counted_box(site, place))},
                             {"n90", count_json(run.run.scans_to(0.90))},
                             {"n95", count_json(run.run.scans_to(0.95))},
                             {"n99", count_json(run.run.scans_to(kEnough))},

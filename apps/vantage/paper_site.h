@@ -8,6 +8,7 @@ struct PaperSite {
   std::vector<vantage::Setting> settings;
   std::int64_t scans = 0;   ///< That the paper took.
   std::int64_t points = 0;  ///< That the paper had from them.
+  bool everything = false;  ///< It counts what was scanned outside the domain too.
 };
 [[nodiscard]] PaperSite patio_site(const std::string& figure, bool quick);
 [[nodiscard]] PaperSite church_site(const std::string& figure, bool quick);
