@@ -36,7 +36,7 @@ constexpr Entry kEntries[] = {
 
 constexpr const char* kPurpose =
     "Makes a table or a figure of the paper again, from the built-in scenes, with our figures beside the printed ones.\n"
-    "Lengths come in both units: of the cube that holds the scene, as in the paper, and metres.\n";
+    "The table has lengths in both units: of the cube that holds the scene, as in the paper, and metres.\n\n";
 
 constexpr const char* kExamples =
     "  vantage paper table1                the table on the terminal, as Markdown\n"
@@ -73,7 +73,7 @@ void make_folder(const std::filesystem::path& folder) {
 
 int paper_command(const Arguments& arguments) {
   std::string purpose = kPurpose;
-  for (const Entry& entry : kEntries) purpose += fmt::format("\n  {:<8} {}\n", entry.name, entry.what);
+  for (const Entry& entry : kEntries) purpose += fmt::format("  {:<8} {}\n", entry.name, entry.what);
   CommandParser parser("paper", "NAME [-o DIR] [options]", purpose, kExamples);
   std::string name, folder, step, threads;
   bool json = false, quiet = false, quick = false;
@@ -81,7 +81,7 @@ int paper_command(const Arguments& arguments) {
   parser.option("-o,--output", folder, "DIR", "folder for the files", "Output");
   parser.flag("--json", json, "print the figures as JSON", "Output");
   parser.flag("-q,--quiet", quiet, "print nothing", "Output");
-  parser.option("--step-deg", step, "DEGREES", "between the sensor's rays (0.01 .. 30 deg; default 0.5, the paper's)", "Method");
+  parser.option("--step-deg", step, "DEGREES", "between the sensor's rays (0.01 .. 30 deg; default 0.5, the paper's; with --quick 2)", "Method");
   parser.flag("--quick", quick, "a coarser and smaller version of a figure, in seconds", "Method");
   parser.option("--threads", threads, "N", "at most so many threads (default: all cores); the results do not depend on it", "Method");
   if (!parser.parse(arguments)) return 0;
