@@ -47,8 +47,8 @@ std::string picture(const vantage::Table1::Surface& surface) {
 
 }  // namespace
 
-PaperItem paper_table1(const vantage::LidarOptions& sensor, vantage::Observer& observer) {
-  const vantage::Table1 table = vantage::make_table1(sensor, &observer);
+PaperItem paper_table1(const PaperSetup& setup, vantage::Observer& observer) {
+  const vantage::Table1 table = vantage::make_table1(setup.sensor, &observer);
   PaperItem item;
   item.text = vantage::table1_as_markdown(table.rows);
   item.json["rows"] = Json::array();

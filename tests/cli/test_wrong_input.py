@@ -150,9 +150,9 @@ TABLE = [
     (["scan", "planar", "--at", "2,2", "-o", "no/such/folder/out.ply"], 3, "no/such/folder"),
     (["scan", "none.ply", "--at", "2,2,2", "-o", "out.ply"], 3, "none.ply"),
     # paper
-    (["paper"], 2, "NAME is missing: must be one of table1"),
-    (["paper", "fig3", "-o", "out"], 2, "fig3: not a figure we make yet: must be one of table1"),
-    (["paper", "table9"], 2, "table9: not a table we make: must be one of table1"),
+    (["paper"], 2, "NAME is missing: must be one of fig2, fig3"),
+    (["paper", "fig1", "-o", "out"], 2, "fig1: not a table or figure we make: must be one of fig2, fig3, fig4, fig5, fig6, fig7, table1"),
+    (["paper", "table9"], 2, "table9: not a table or figure we make: must be one of fig2, fig3, fig4, fig5, fig6, fig7, table1"),
     (["paper", "table1", "--step-deg", "0"], 2, "sensor.step_deg = 0: must be"),
     # audit
     (["audit"], 2, "SCENE is missing"),
