@@ -161,6 +161,7 @@ struct Explorer<Dim>::Impl {
   void judge() {
     using End = typename Decision<Dim>::End;
     constexpr double kComplete = 0.99;  // Of what can be seen, as estimated.
+    verdict.end = decision.end;
     verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete;
     if (decision.end == End::none)
       for (UnseenRegion<Dim>& region : verdict.unseen)

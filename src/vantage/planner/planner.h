@@ -21,7 +21,8 @@ struct Decision {
   double expected_volume = 0.0;          ///< Largest over the candidates [m^Dim].
   std::int64_t candidates = 0;           ///< Evaluated.
   std::vector<Vec<Dim>> path;            ///< From where we are to `position` [m].
-  enum class End { none, nothing_can_open, below_threshold, idle, unreachable } end = End::none;
+  using End = StopReason;
+  End end = End::none;
   std::vector<std::pair<std::size_t, float>> scored;  ///< Candidates (linear index) and their E.
 };
 

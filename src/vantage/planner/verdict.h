@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,15 @@
 #include "vantage/planner/opening.h"
 
 namespace vantage {
+
+/// Why a run ends.
+enum class StopReason {
+  none,              ///< It does not yet.
+  nothing_can_open,  ///< No reachable place is expected to show anything new.
+  below_threshold,   ///< The best place would show too little, twice in a row.
+  idle,              ///< Many picks in a row gained nothing.
+  unreachable,       ///< Unseen space remains, but there is no place left to scan from.
+};
 
 /// A region that stays unseen, and why.
 template <int Dim>
@@ -22,6 +32,7 @@ struct UnseenRegion {
 template <int Dim>
 struct Verdict {
   bool complete = false;
+  StopReason end = StopReason::none;
   std::string reason;                      ///< One sentence.
   double seen_fraction = 0.0;              ///< seen / (seen + what may still open) [1]
   double seen_low = 0.0, seen_high = 1.0;  ///< Bounds on it [1].
