@@ -18,7 +18,7 @@ constexpr std::int64_t kMostScans = 150;  // A small scene needs a dozen or two.
 template <int Dim>
 class Watch {
  public:
-  Watch(const Trial<Dim>& trial, const TrialOptions& options) : truth_(trial.truth()), options_(options) {}
+  Watch(const RayCaster<Dim>& truth, const TrialOptions& options) : truth_(truth), options_(options) {}
 
   /// After a step.
   void look(const Explorer<Dim>& explorer, Ending& ending) {
@@ -88,6 +88,14 @@ bool bears_out(const Explorer<Dim>& explorer, const PlannerOptions& options) {
   return false;
 }
 
+ReferenceOptions reference_options(const TrialOptions& options) {
+  return {.voxel = options.explore.voxel,
+          .eta = options.explore.surface.eta,
+          .clearance = options.explore.planner.clearance,
+          .range = options.lidar.pattern.max_range,
+          .rays = 300};
+}
+
 template <int Dim>
 Ending play_small(const SmallScene& name, Observer* observer) {
   const Scene<Dim> scene = make_small_scene<Dim>(name.kind, name.seed);
@@ -109,16 +117,17 @@ template <int Dim>
 Ending play_to_end(const Scene<Dim>& scene, const TrialOptions& options, Observer* observer) {
   Ending ending;
   try {
-    const Trial<Dim> trial(scene, options);
+    const RayCaster<Dim> truth(scene.mesh);
+    const Reference<Dim> reference = make_reference(truth, scene.domain, scene.start, reference_options(options));
     SimulatedLidar<Dim> lidar(scene.mesh, options.lidar);
     Explorer<Dim> explorer(lidar, scene.domain, scene.start, options.explore, observer);
-    Watch<Dim> watch(trial, options);
+    Watch<Dim> watch(truth, options);
     while (!explorer.finished()) {
       explorer.step();
       watch.look(explorer, ending);
       if (observer != nullptr && observer->stop_requested()) throw Error(ErrorCode::interrupted, "stopped");
     }
-    const Coverage now = coverage(trial.reference(), explorer.states());
+    const Coverage now = coverage(reference, explorer.states());
     const Verdict<Dim> verdict = explorer.verdict();
     ending.scans = static_cast<std::int64_t>(explorer.steps().size());
     ending.ended = verdict.end != StopReason::none;

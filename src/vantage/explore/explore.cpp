@@ -138,7 +138,10 @@ struct Explorer<Dim>::Impl {
     record.seen_volume = belief.seen_volume();
     record.new_volume = std::max(0.0, record.seen_volume - seen_before);
     decision = timed("planner", [&] { return planner->choose(belief.view(), scan.origin, record.new_volume); });  // arg max E, Eq. (1)
-    verdict = timed("verdict", [&] { return planner->assess(belief.view()); });
+    verdict = timed("verdict", [&] {
+      planner->note(belief.view(), scan);
+      return planner->assess(belief.view());
+    });
 
     record.vantage = scan.origin;
     record.points = update.points;

@@ -78,6 +78,8 @@ void describe(PlannerOptions& o, const OptionVisitor& visit) {
   visit("clearance", o.clearance, "m", Range{0, 1e3}, "of a vantage point and of the path to known obstacles");
   visit("stop_volume", o.stop_volume, "", Range{0, 1}, "stop when the expected new volume is below this share of the seen, twice in a row");
   visit("idle_limit", o.idle_limit, "scans", Range{1, 1e6}, "stop after so many in a row that gained nothing");
+  visit("last_looks", o.last_looks, "scans", Range{0, 1e6},
+        "before the end, look so often in a row at what nobody has looked at frontally, although little is expected of it");
   visit("report_volume", o.report_volume, "m^d", Range{0, 1e9}, "smaller unseen regions are not listed; 0: 27 cells (2D: 9)");
 }
 
@@ -245,7 +247,24 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   }
   decision.end = end_of(decision, seen_volume);
   decision.found = decision.end == Decision<Dim>::End::none;
+  last_look_ = {};
+  if (new_volume >= options_.stop_volume * seen_volume) last_looks_ = 0;
+  if (!decision.found && decision.end != Decision<Dim>::End::idle) look_again(view, decision);
   return decision;
+}
+
+/// Nothing much is expected any more: is there a face nobody has looked at, and a place that sees it?
+template <int Dim>
+  requires SpatialDim<Dim>
+void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decision) {
+  const Vec<Dim> here = visited_.back();
+  last_look_ = last_look<Dim>(view, opening_.faces(), rays(view), {reachable_, visited_, max_range_});
+  if (!last_look_.place || last_looks_ >= options_.last_looks) return;
+  ++last_looks_;
+  decision.found = true;
+  decision.end = Decision<Dim>::End::none;
+  decision.position = view.window().position(*last_look_.place);
+  decision.path = safe_path(reachable_, *last_look_.place, here);
 }
 
 template <int Dim>
@@ -273,7 +292,7 @@ Verdict<Dim> Planner<Dim>::assess(const BeliefView<Dim>& view) const {
     least = 1.0;
     for (int a = 0; a < Dim; ++a) least *= 3.0 * view.window().spacing;
   }
-  return vantage::assess<Dim>(view, opening_.faces(), reachable_, {opacity_, max_range_, least});
+  return vantage::assess<Dim>(view, opening_.faces(), reachable_, {opacity_, max_range_, least, &last_look_, &glimpses_});
 }
 
 template class Planner<2>;

@@ -37,6 +37,9 @@ class Planner {
   /// arg max E after a scan at `here`, which saw `new_volume` for the first time [m^Dim].
   [[nodiscard]] Decision<Dim> choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume);
 
+  /// Takes note of where a scan's rays went although the belief calls it unseen; after the scan was united with the belief, before assess().
+  void note(const BeliefView<Dim>& view, const Scan<Dim>& scan) { glimpses_.note(view, scan); }
+
   /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be. Baselines: the ray form.
   [[nodiscard]] std::vector<double> evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const;
 
@@ -54,6 +57,7 @@ class Planner {
   [[nodiscard]] std::vector<Scored> score_by_baseline(const BeliefView<Dim>& view, std::span<const std::size_t> nodes,
                                                       std::span<const std::size_t> medial);
   [[nodiscard]] typename Decision<Dim>::End end_of(const Decision<Dim>& decision, double seen_volume);
+  void look_again(const BeliefView<Dim>& view, Decision<Dim>& decision);
   [[nodiscard]] double mix(const RaySums& sums) const;
   void set_scale(std::span<const Scored> scored);
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
@@ -68,7 +72,9 @@ class Planner {
   Field<Dim> weight_;  // w per node; empty: 1 everywhere.
   RaySums scale_;      // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
-  int below_ = 0, idle_ = 0;  // Picks in a row.
+  Glimpses<Dim> glimpses_;
+  LastLook last_look_;                        // Empty while there is better to do.
+  int below_ = 0, idle_ = 0, last_looks_ = 0;  // Picks in a row.
 };
 
 }  // namespace vantage

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "vantage/field/belief_view.h"
-#include "vantage/planner/opening.h"
+#include "vantage/planner/glimpses.h"
+#include "vantage/planner/last_look.h"
 
 namespace vantage {
 
@@ -26,6 +27,7 @@ struct UnseenRegion {
   double may_open = 0.0;  ///< Expected to be seen from somewhere [m^Dim].
   Box<Dim> box;           ///< [m]
   std::string reason;     ///< "enclosed", "no reachable view", "beyond range", "below the threshold", "too fine for the lattice", "not looked at yet"
+  std::optional<Vec<Dim>> open_from;  ///< A reachable place from which it may open, if there is one [m].
 };
 
 /// Why the run ended, and what is left.
@@ -40,10 +42,13 @@ struct Verdict {
   std::vector<UnseenRegion<Dim>> unseen;   ///< Largest first; the smallest are left out.
 };
 
+template <int Dim>
 struct AssessOptions {
   double opacity = 0.0;       ///< measured_opacity times its factor [1/m].
   double max_range = 80.0;    ///< Of the sensor [m].
   double least_volume = 0.0;  ///< Smaller regions are not listed [m^Dim].
+  const LastLook* last_look = nullptr;           ///< Of the same faces, if they were looked for.
+  const Glimpses<Dim>* glimpsed = nullptr;
 };
 
 /// How many nodes are seen.
@@ -53,6 +58,6 @@ template <int Dim>
 /// What is left to see: shares and regions; `complete` and `reason` of the whole are the caller's.
 template <int Dim>
 [[nodiscard]] Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
-                                  const AssessOptions& options);
+                                  const AssessOptions<Dim>& options);
 
 }  // namespace vantage
