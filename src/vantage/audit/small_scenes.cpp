@@ -125,7 +125,7 @@ class Builder {
 
   /// A wall across the box with a hole of 1 to 5 cells; the parts on both sides.
   std::array<Box<Dim>, 2> divide(const Box<Dim>& box, int axis, double share) {
-    const double at = box.low[axis] + share * box.size()[axis], thick = cells(0.4, 2.0);
+    const double at = box.low[axis] + share * box.size()[axis], thick = cells(0.4, chance(0.5) ? 0.8 : 2.0);
     std::array<Box<Dim>, 2> parts{box, box};
     parts[0].high[axis] = at - 0.5 * thick;
     parts[1].low[axis] = at + 0.5 * thick;

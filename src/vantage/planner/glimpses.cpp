@@ -34,8 +34,8 @@ void Glimpses<Dim>::note(const BeliefView<Dim>& view, const Scan<Dim>& scan) {
     }
     return found;
   };
-  nodes_ = parallel_reduce(rays.size(), 4096, std::move(nodes_), along,
-                           [](std::vector<std::size_t>& all, std::vector<std::size_t> part) { all.insert(all.end(), part.begin(), part.end()); });
+  const auto join = [](std::vector<std::size_t>& all, std::vector<std::size_t> part) { all.insert(all.end(), part.begin(), part.end()); };
+  join(nodes_, parallel_reduce(rays.size(), 4096, std::vector<std::size_t>{}, along, join));
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }

@@ -54,6 +54,50 @@ double depth_behind(const BeliefView<Dim>& view, const BoundaryFace<Dim>& face, 
 }
 
 template <int Dim>
+Field<Dim, std::uint8_t> squeezed_nodes(const BeliefView<Dim>& view, const Field<Dim, std::uint8_t>& reachable, double clearance) {
+  const Grid<Dim>& grid = view.window();
+  Grid<Dim> fine{0.5 * grid.spacing, 2 * grid.first, (2 * grid.extent.array() - 1).matrix()};
+  const auto passable = [&](const Index<Dim>& place) {
+    const Index<Dim> low = place / 2, odd = place - 2 * low;
+    const Grid<Dim> corners{1.0, low, Index<Dim>(odd.array() + 1)};
+    double nearest = kInfinity;
+    bool all_obstacle = true;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const std::size_t node = grid.linear(low + corners.local(c));
+      if (view.state[node] == NodeState::unseen) return false;
+      all_obstacle = all_obstacle && view.state[node] == NodeState::obstacle;
+      nearest = std::min(nearest, static_cast<double>(view.known_distance[node]));
+    }
+    // Halfway across a passage the walls on both sides are half a step farther away.
+    return !all_obstacle && nearest + (odd.any() ? 0.5 * grid.spacing : 0.0) >= clearance;
+  };
+  Field<Dim, std::uint8_t> squeezed = reachable, tried(fine);
+  std::vector<std::size_t> queue;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (reachable[i] == 0) continue;
+    queue.push_back(fine.linear(2 * grid.local(i)));
+    tried[queue.back()] = 1;
+  }
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    const Index<Dim> at = fine.local(queue[k]);
+    for (int a = 0; a < Dim; ++a)
+      for (const int by : {-1, 1}) {
+        const Index<Dim> to = at + by * Index<Dim>::Unit(a);
+        if (!fine.inside(to) || tried.at(to) != 0) continue;
+        tried.at(to) = 1;
+        if (!passable(to)) continue;
+        queue.push_back(fine.linear(to));
+        const Grid<Dim> corners{1.0, to / 2, Index<Dim>((to - 2 * (to / 2)).array() + 1)};
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+          const std::size_t node = grid.linear(corners.first + corners.local(c));
+          if (view.seen(node)) squeezed[node] = 1;
+        }
+      }
+  }
+  return squeezed;
+}
+
+template <int Dim>
 LastLook last_look(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const RayMarch<Dim>& rays, const Ground<Dim>& ground) {
   const Grid<Dim>& grid = view.window();
   const double h = grid.spacing;
@@ -109,6 +153,7 @@ LastLook last_look(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim
 #define VANTAGE_INSTANTIATE(D)                                                                    \
   template bool in_doubt<D>(const BoundaryFace<D>&);                                              \
   template double depth_behind<D>(const BeliefView<D>&, const BoundaryFace<D>&, double);          \
+  template Field<D, std::uint8_t> squeezed_nodes<D>(const BeliefView<D>&, const Field<D, std::uint8_t>&, double);                              \
   template LastLook last_look<D>(const BeliefView<D>&, std::span<const BoundaryFace<D>>, const RayMarch<D>&, const Ground<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -34,6 +34,11 @@ struct Ground {
   double max_range = 80.0;  ///< Of the sensor [m].
 };
 
+/// Seen nodes that someone with the clearance might get to although no node of the lattice leads there: known places half a step apart are tried, with
+/// the distance to the surface that their nodes allow. The reachable nodes are among them (1, else 0).
+template <int Dim>
+[[nodiscard]] Field<Dim, std::uint8_t> squeezed_nodes(const BeliefView<Dim>& view, const Field<Dim, std::uint8_t>& reachable, double clearance);
+
 /// Tries the faces in doubt from the reachable nodes that are new (all of both if they are few, else an even choice): in range, through seen space,
 /// as frontal as the planner learns from. Cost: at most 600,000 lines of sight.
 template <int Dim>

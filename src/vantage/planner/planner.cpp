@@ -247,7 +247,7 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   }
   decision.end = end_of(decision, seen_volume);
   decision.found = decision.end == Decision<Dim>::End::none;
-  last_look_ = {};
+  last_look_ = squeezed_ = {};
   if (new_volume >= options_.stop_volume * seen_volume) last_looks_ = 0;
   if (!decision.found && decision.end != Decision<Dim>::End::idle) look_again(view, decision);
   return decision;
@@ -259,7 +259,11 @@ template <int Dim>
 void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decision) {
   const Vec<Dim> here = visited_.back();
   last_look_ = last_look<Dim>(view, opening_.faces(), rays(view), {reachable_, visited_, max_range_});
-  if (!last_look_.place || last_looks_ >= options_.last_looks) return;
+  if (!last_look_.place || last_looks_ >= options_.last_looks) {
+    const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);
+    if (squeezed.values != reachable_.values) squeezed_ = last_look<Dim>(view, opening_.faces(), rays(view), {squeezed, visited_, max_range_});
+    return;
+  }
   ++last_looks_;
   decision.found = true;
   decision.end = Decision<Dim>::End::none;
@@ -292,7 +296,7 @@ Verdict<Dim> Planner<Dim>::assess(const BeliefView<Dim>& view) const {
     least = 1.0;
     for (int a = 0; a < Dim; ++a) least *= 3.0 * view.window().spacing;
   }
-  return vantage::assess<Dim>(view, opening_.faces(), reachable_, {opacity_, max_range_, least, &last_look_, &glimpses_});
+  return vantage::assess<Dim>(view, opening_.faces(), reachable_, {opacity_, max_range_, least, &last_look_, &squeezed_, &glimpses_});
 }
 
 template class Planner<2>;

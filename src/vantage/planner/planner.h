@@ -73,7 +73,7 @@ class Planner {
   RaySums scale_;      // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
   Glimpses<Dim> glimpses_;
-  LastLook last_look_;                        // Empty while there is better to do.
+  LastLook last_look_, squeezed_;                        // Empty while there is better to do.
   int below_ = 0, idle_ = 0, last_looks_ = 0;  // Picks in a row.
 };
 

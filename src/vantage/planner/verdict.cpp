@@ -22,7 +22,7 @@ struct Part {
   double glimpsed = 0.0;   // Nodes a ray went by.
   double best_behind = 0.0;
   std::size_t viewer = kNoNode;  // Sees the face with most behind it.
-  bool has_face = false, reachable = false, doubtful = false;
+  bool has_face = false, reachable = false, doubtful = false, squeezed = false;
 };
 
 template <int Dim>
@@ -84,6 +84,7 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
     const BoundaryFace<Dim>& face = faces[i];
     Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(face.unseen))];
     const double behind = face_area * depth_behind(view, face, free_path);
+    if (options.squeezed != nullptr && options.squeezed->viewer.size() == faces.size() && options.squeezed->viewer[i] != kNoNode) part.squeezed = true;
     const bool looked_for = options.last_look != nullptr && options.last_look->viewer.size() == faces.size();
     const bool viewable = looked_for ? options.last_look->viewer[i] != kNoNode : reachable[face.seen] != 0;
     part.has_face = true;
@@ -106,12 +107,15 @@ struct Share {
 template <int Dim>
 Share share_of(const Part<Dim>& part, double cell) {
   const double all = part.clear * cell;
+  const bool entered = part.glimpsed > 0.0;
   Share share;
-  share.least = std::min(all, part.glimpsed * cell);
-  share.most = part.doubtful || part.glimpsed > 0.0 ? all : std::min(all, part.rim);
+  share.least = 0.25 * std::min(all, part.glimpsed * cell);  // A ray through a cell does not show all of it.
+  share.most = part.doubtful || part.squeezed || entered ? all : std::min(all, part.rim);
   share.expected = std::min(all, part.open);
   // Light gets in where no opening is known: as much as not may be seen that way.
-  if (part.glimpsed > 0.0) share.expected = std::max(share.expected, 0.5 * (share.least + share.most));
+  if (entered) share.expected = std::max(share.expected, 0.5 * (share.least + share.most));
+  // A passage the lattice is too coarse for leads to where nobody has looked.
+  if (part.squeezed && !part.doubtful) share.expected = share.most;
   return share;
 }
 
@@ -162,7 +166,9 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   std::vector<Part<Dim>> parts = parts_of(view, regions);
   add_faces(view, faces, reachable, regions, options, parts);
   if (options.glimpsed != nullptr)
-    options.glimpsed->for_each(view.state, [&](std::size_t node) { parts[static_cast<std::size_t>(regions.region_of(node))].glimpsed += 1.0; });
+    options.glimpsed->for_each(view.state, [&](std::size_t node) {
+      if (static_cast<double>(view.known_distance[node]) > h && static_cast<double>(view.psi[node]) < -2.0 * h) parts[static_cast<std::size_t>(regions.region_of(node))].glimpsed += 1.0;
+    });
 
   const Box<Dim> ground = bounds_of(reachable);
   double open = 0.0, most = 0.0, least = 0.0;

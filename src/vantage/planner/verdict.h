@@ -48,6 +48,7 @@ struct AssessOptions {
   double max_range = 80.0;    ///< Of the sensor [m].
   double least_volume = 0.0;  ///< Smaller regions are not listed [m^Dim].
   const LastLook* last_look = nullptr;           ///< Of the same faces, if they were looked for.
+  const LastLook* squeezed = nullptr;            ///< The same from squeezed_nodes().
   const Glimpses<Dim>* glimpsed = nullptr;
 };
 
