@@ -134,7 +134,10 @@ struct Explorer<Dim>::Impl {
       const std::vector<Vec<Dim>> walls = options.fill ? fill_between_rays(scan, 0.5 * window.spacing) : std::vector<Vec<Dim>>{};
       belief.unite(seen, distance_to_patches<Dim>(patches, near, belief.known_cap()), walls);
     });
-    if (!planner) planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
+    if (!planner) {
+      planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
+      planner->know_surface([this] { return surface.patches(); });
+    }
     record.seen_volume = belief.seen_volume();
     record.new_volume = std::max(0.0, record.seen_volume - seen_before);
     decision = timed("planner", [&] { return planner->choose(belief.view(), scan.origin, record.new_volume); });  // arg max E, Eq. (1)

@@ -257,18 +257,21 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
 template <int Dim>
   requires SpatialDim<Dim>
 void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decision) {
-  const Vec<Dim> here = visited_.back();
-  last_look_ = last_look<Dim>(view, opening_.faces(), rays(view), {reachable_, visited_, max_range_});
-  if (!last_look_.place || last_looks_ >= options_.last_looks) {
-    const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);
-    if (squeezed.values != reachable_.values) squeezed_ = last_look<Dim>(view, opening_.faces(), rays(view), {squeezed, visited_, max_range_});
+  std::optional<RayCaster<Dim>> surface;
+  if (surface_) surface.emplace(patch_mesh<Dim>(surface_(), 0.3 * view.window().spacing));
+  const Ground<Dim> ground{reachable_, visited_, max_range_, surface ? &*surface : nullptr};
+  last_look_ = looks_.look(view, opening_.faces(), ground);
+  if (last_look_.place && last_looks_ < options_.last_looks) {
+    ++last_looks_;
+    looks_.answer(view, opening_.faces(), ground, *last_look_.place);
+    decision.found = true;
+    decision.end = Decision<Dim>::End::none;
+    decision.position = view.window().position(*last_look_.place);
+    decision.path = safe_path(reachable_, *last_look_.place, visited_.back());
     return;
   }
-  ++last_looks_;
-  decision.found = true;
-  decision.end = Decision<Dim>::End::none;
-  decision.position = view.window().position(*last_look_.place);
-  decision.path = safe_path(reachable_, *last_look_.place, here);
+  const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);
+  squeezed_ = looks_.look(view, opening_.faces(), {squeezed, visited_, max_range_, ground.surface, false});
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class Planner {
   /// arg max E after a scan at `here`, which saw `new_volume` for the first time [m^Dim].
   [[nodiscard]] Decision<Dim> choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume);
 
+  /// How to get the surface as known: before the end, places are sought that see through its gaps. Without it every obstacle node hides.
+  void know_surface(std::function<std::vector<Patch<Dim>>()> surface) { surface_ = std::move(surface); }
   /// Takes note of where a scan's rays went although the belief calls it unseen; after the scan was united with the belief, before assess().
   void note(const BeliefView<Dim>& view, const Scan<Dim>& scan) { glimpses_.note(view, scan); }
 
@@ -72,6 +75,8 @@ class Planner {
   Field<Dim> weight_;  // w per node; empty: 1 everywhere.
   RaySums scale_;      // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
+  std::function<std::vector<Patch<Dim>>()> surface_;
+  LastLooks<Dim> looks_;
   Glimpses<Dim> glimpses_;
   LastLook last_look_, squeezed_;                        // Empty while there is better to do.
   int below_ = 0, idle_ = 0, last_looks_ = 0;  // Picks in a row.

@@ -20,8 +20,7 @@ struct Part {
   double open = 0.0;       // What its faces are expected to open [m^Dim].
   double rim = 0.0;        // A layer of cells behind its faces [m^Dim].
   double glimpsed = 0.0;   // Nodes a ray went by.
-  double best_behind = 0.0;
-  std::size_t viewer = kNoNode;  // Sees the face with most behind it.
+  std::size_t viewer = kNoNode;  // Sees a part of it that may open.
   bool has_face = false, reachable = false, doubtful = false, squeezed = false;
 };
 
@@ -80,22 +79,26 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
                const Regions<Dim>& regions, const AssessOptions<Dim>& options, std::vector<Part<Dim>>& parts) {
   const double h = view.window().spacing, face_area = cell_measure<Dim>(h, Dim - 1);
   const double free_path = options.opacity > 0.0 ? 1.0 / options.opacity : kInfinity;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const BoundaryFace<Dim>& face = faces[i];
+  const bool looked_for = options.last_look != nullptr && options.last_look->asked;
+  for (const BoundaryFace<Dim>& face : faces) {
     Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(face.unseen))];
     const double behind = face_area * depth_behind(view, face, free_path);
-    if (options.squeezed != nullptr && options.squeezed->viewer.size() == faces.size() && options.squeezed->viewer[i] != kNoNode) part.squeezed = true;
-    const bool looked_for = options.last_look != nullptr && options.last_look->viewer.size() == faces.size();
-    const bool viewable = looked_for ? options.last_look->viewer[i] != kNoNode : reachable[face.seen] != 0;
+    const LastLook::Open* open = looked_for ? options.last_look->find(face.unseen) : nullptr;
+    const bool viewable = looked_for ? open != nullptr : reachable[face.seen] != 0;
     part.has_face = true;
     part.reachable = part.reachable || viewable;
     part.rim += face_area * h;
-    if (!in_doubt(face) || !viewable) continue;
+    if (!viewable) continue;
     part.doubtful = true;
     part.open += behind * face.probability;
-    if (!looked_for || behind <= part.best_behind) continue;
-    part.best_behind = behind;
-    part.viewer = options.last_look->viewer[i];
+  }
+  for (const LastLook* look : {options.last_look, options.squeezed}) {
+    if (look == nullptr || !look->asked) continue;
+    for (const LastLook::Open& open : look->open) {
+      Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(open.unseen))];
+      (look == options.last_look ? part.doubtful : part.squeezed) = true;
+      if (look == options.last_look && part.viewer == kNoNode) part.viewer = open.viewer;
+    }
   }
 }
 
