@@ -16,7 +16,7 @@ namespace vantage {
 namespace {
 
 constexpr double kCell = 0.5;       // Lattice spacing [m].
-constexpr double kClearance = 0.5;  // [m]
+constexpr double kClearance = 0.55;  // Doors of two cells are too narrow, those of three are not [m].
 constexpr std::array<std::string_view, 11> kNames{"box",  "field",     "pillar", "clutter", "doors",    "rooms",
                                                   "maze", "corridors", "voids",  "shut",    "symmetric"};
 
@@ -36,7 +36,8 @@ class Builder {
     Scene<Dim> scene;
     scene.name = std::string(kNames[static_cast<std::size_t>(kind_)]);
     const Vec<Dim> middle = domain_.center();
-    const bool turned = kind_ != SmallKind::symmetric && random_.uniform() < 0.3;
+    const bool straight = kind_ == SmallKind::symmetric || kind_ == SmallKind::maze || kind_ == SmallKind::corridors;
+    const bool turned = !straight && random_.uniform() < 0.3;
     Placement<Dim> place = Placement<Dim>{middle}.at(Vec<Dim>::Zero(), turned ? random_.uniform(-0.5, 0.5) : 0.0);
     place = place.at(-middle);
     blocks_.append_to(scene.mesh, place);
@@ -85,7 +86,7 @@ class Builder {
       case SmallKind::doors: doors(); break;
       case SmallKind::rooms: divided(1.0); break;
       case SmallKind::maze: maze(7.0, 4.4, 5.6); break;
-      case SmallKind::corridors: maze(5.0, 2.9, 3.5); break;
+      case SmallKind::corridors: maze(5.0, 3.25, 3.6); break;
       case SmallKind::voids: divided(0.6); break;
       case SmallKind::shut: divided(0.0); break;
       case SmallKind::symmetric: symmetric(); break;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostQuestions = 200, kMostPlaces = 300, kNearPlaces = 60;
 constexpr double kLeastCosine = 0.1;  // Less teaches nothing.
-constexpr double kAnswered = 0.9;
+constexpr double kAnswered = 0.9, kInTheOpen = 0.75;
 constexpr double kDeep = 3.0;  // Cells behind a slit; less is the inside of a wall.
 
 /// An even choice of at most `limit`, in their order.
@@ -147,6 +147,10 @@ LastLook LastLooks<Dim>::look(const BeliefView<Dim>& view, std::span<const Bound
   const Grid<Dim>& grid = view.window();
   LastLook look;
   look.asked = true;
+  for (const BoundaryFace<Dim>& face : faces)
+    if (face.known_distance >= kInTheOpen * grid.spacing && !answered_.values.empty() && static_cast<double>(answered_[face.unseen]) >= kAnswered)
+      look.stubborn.push_back(face.unseen);
+  std::sort(look.stubborn.begin(), look.stubborn.end());
   const std::vector<Question> all = questions(view, faces, ground), asked = some_of(all, kMostQuestions);
   const std::vector<std::size_t> everywhere = new_places(ground), places = some_of(everywhere, kMostPlaces);
   struct Answer {

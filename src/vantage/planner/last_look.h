@@ -23,6 +23,7 @@ struct LastLook {
     std::size_t viewer = kNoNode;  ///< Node it is seen from best, of those tried.
   };
   bool asked = false;                ///< False: `open` says nothing.
+  std::vector<std::size_t> stubborn;  ///< Ascending: unseen nodes in the open that stay unseen although nothing known hides them from where one stood.
   std::vector<Open> open;            ///< Ascending by `unseen`, none twice.
   std::optional<std::size_t> place;  ///< The node from where most may open.
   double volume = 0.0;               ///< At most, from there [m^Dim].

@@ -10,6 +10,8 @@
 namespace vantage {
 namespace {
 
+constexpr double kGlimpses = 4.0;  // Nodes; fewer are chance.
+
 /// What hangs together and is unseen.
 template <int Dim>
 struct Part {
@@ -88,6 +90,11 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
     part.has_face = true;
     part.reachable = part.reachable || viewable;
     part.rim += face_area * h;
+    const bool stubborn = looked_for && std::binary_search(options.last_look->stubborn.begin(), options.last_look->stubborn.end(), face.unseen);
+    if (stubborn) {
+      part.doubtful = true;
+      part.open += behind;
+    }
     if (!viewable) continue;
     part.doubtful = true;
     part.open += behind * face.probability;
@@ -110,13 +117,13 @@ struct Share {
 template <int Dim>
 Share share_of(const Part<Dim>& part, double cell) {
   const double all = part.clear * cell;
-  const bool entered = part.glimpsed > 0.0;
+  const bool entered = part.glimpsed >= kGlimpses;
   Share share;
   share.least = 0.25 * std::min(all, part.glimpsed * cell);  // A ray through a cell does not show all of it.
   share.most = part.doubtful || part.squeezed || entered ? all : std::min(all, part.rim);
   share.expected = std::min(all, part.open);
   // Light gets in where no opening is known: as much as not may be seen that way.
-  if (entered) share.expected = std::max(share.expected, 0.5 * (share.least + share.most));
+  if (entered) share.expected = std::max(share.expected, std::min(0.5 * (share.least + share.most), 4.0 * part.glimpsed * cell));
   // A passage the lattice is too coarse for leads to where nobody has looked.
   if (part.squeezed && !part.doubtful) share.expected = share.most;
   return share;
