@@ -47,7 +47,8 @@ class Watch {
       const Index<Dim> node = grid.nearest(p);
       if (!grid.inside(node)) return false;
       if ((p - here).norm() <= near && (cramped || places_.size() == 1)) return states.at(node) != NodeState::obstacle || node == home;
-      return states.at(node) == NodeState::seen && static_cast<double>(known.at(node)) >= clearance;
+      return states.at(node) == NodeState::seen &&
+             static_cast<double>(known.at(node)) >= clearance - 0.25 * grid.spacing;  // Distances are approximate.
     };
     for (std::size_t i = 1; i < way.size(); ++i) {
       const Vec<Dim> piece = way[i] - way[i - 1];
@@ -78,8 +79,8 @@ bool bears_out(const Explorer<Dim>& explorer, const PlannerOptions& options) {
     case StopReason::none: return false;
     case StopReason::nothing_can_open: return !(steps.back().expected_volume > 0.0);
     case StopReason::below_threshold:
-      return steps.size() >= 2 && std::all_of(steps.end() - 2, steps.end(),
-                                              [&](const auto& s) { return s.expected_volume < options.stop_volume * s.seen_volume; });
+      return steps.size() >= 2 &&
+             std::all_of(steps.end() - 2, steps.end(), [&](const auto& s) { return s.expected_volume < options.stop_volume * s.seen_volume; });
     case StopReason::idle:
       return static_cast<std::int64_t>(steps.size()) > options.idle_limit &&
              std::all_of(steps.end() - options.idle_limit, steps.end(), [](const auto& s) { return s.new_volume < 1e-5 * s.seen_volume; });
@@ -88,12 +89,13 @@ bool bears_out(const Explorer<Dim>& explorer, const PlannerOptions& options) {
   return false;
 }
 
+template <int Dim>
 ReferenceOptions reference_options(const TrialOptions& options) {
   return {.voxel = options.explore.voxel,
           .eta = options.explore.surface.eta,
           .clearance = options.explore.planner.clearance,
           .range = options.lidar.pattern.max_range,
-          .rays = 300};
+          .rays = 2400 - 700 * Dim};
 }
 
 template <int Dim>
@@ -118,7 +120,7 @@ Ending play_to_end(const Scene<Dim>& scene, const TrialOptions& options, Observe
   Ending ending;
   try {
     const RayCaster<Dim> truth(scene.mesh);
-    const Reference<Dim> reference = make_reference(truth, scene.domain, scene.start, reference_options(options));
+    const Reference<Dim> reference = make_reference(truth, scene.domain, scene.start, reference_options<Dim>(options));
     SimulatedLidar<Dim> lidar(scene.mesh, options.lidar);
     Explorer<Dim> explorer(lidar, scene.domain, scene.start, options.explore, observer);
     Watch<Dim> watch(truth, options);

@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kCell = 0.5;       // Lattice spacing [m].
+constexpr double kCell = 0.5;        // Lattice spacing [m].
 constexpr double kClearance = 0.55;  // Doors of two cells are too narrow, those of three are not [m].
 constexpr std::array<std::string_view, 11> kNames{"box",  "field",     "pillar", "clutter", "doors",    "rooms",
                                                   "maze", "corridors", "voids",  "shut",    "symmetric"};

@@ -168,7 +168,9 @@ struct Explorer<Dim>::Impl {
     using End = typename Decision<Dim>::End;
     constexpr double kComplete = 0.99;  // Of what can be seen, as estimated.
     verdict.end = decision.end;
-    verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete;
+    constexpr double kSure = 0.9;  // At least.
+    verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete &&
+                       verdict.seen_low >= kSure;
     if (decision.end == End::none)
       for (UnseenRegion<Dim>& region : verdict.unseen)
         if (region.reason == "below the threshold") region.reason = "not looked at yet";

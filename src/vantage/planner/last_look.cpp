@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostQuestions = 200, kMostPlaces = 300, kNearPlaces = 60;
+constexpr std::size_t kMostQuestions = 120, kMostPlaces = 200, kNearPlaces = 40;
 constexpr double kLeastCosine = 0.1;  // Less teaches nothing.
 constexpr double kAnswered = 0.9, kInTheOpen = 0.75;
 constexpr double kDeep = 3.0;  // Cells behind a slit; less is the inside of a wall.
@@ -121,7 +121,7 @@ auto LastLooks<Dim>::questions(const BeliefView<Dim>& view, std::span<const Boun
   const auto answered = [&](std::size_t node) { return !answered_.values.empty() && static_cast<double>(answered_[node]) >= kAnswered; };
   std::vector<Question> all;
   for (const BoundaryFace<Dim>& face : faces)
-    if (!looked_at(face) && !answered(face.unseen))
+    if (!looked_at(face) && !answered(face.unseen) && (ground.slits || face.known_distance >= kInTheOpen * grid.spacing))
       all.push_back({face.unseen, face.center, face.step(), area * depth_behind(view, face, ground.max_range)});
   for (std::size_t i = 0; ground.slits && ground.surface != nullptr && i < grid.size(); ++i) {
     if (view.state[i] != NodeState::obstacle) continue;
@@ -135,7 +135,7 @@ auto LastLooks<Dim>::questions(const BeliefView<Dim>& view, std::span<const Boun
       if (answered(slit.unseen)) continue;
       const double depth = depth_behind(view, slit, ground.max_range);
       if (depth < kDeep * grid.spacing) continue;
-      all.push_back({slit.unseen, 0.5 * (grid.position(i) + grid.position(to)), slit.step(), 0.25 * area * depth});
+      all.push_back({slit.unseen, 0.5 * (grid.position(i) + grid.position(to)), slit.step(), 0.25 * area * depth, true});
     }
   }
   return all;
@@ -176,11 +176,12 @@ LastLook LastLooks<Dim>::look(const BeliefView<Dim>& view, std::span<const Bound
   for (std::size_t q = 0; q < asked.size(); ++q) {
     if (answers[q].empty()) continue;
     const auto best = std::max_element(answers[q].begin(), answers[q].end(), [](const Answer& a, const Answer& b) { return a.worth < b.worth; });
-    look.open.push_back({asked[q].unseen, best->place});
+    look.open.push_back({asked[q].unseen, best->place, asked[q].slit});
     for (const Answer& a : answers[q]) volume.emplace_back(a.place, a.worth * asked[q].behind * share);
   }
   std::stable_sort(look.open.begin(), look.open.end(), [](const auto& a, const auto& b) { return a.unseen < b.unseen; });
-  look.open.erase(std::unique(look.open.begin(), look.open.end(), [](const auto& a, const auto& b) { return a.unseen == b.unseen; }), look.open.end());
+  look.open.erase(std::unique(look.open.begin(), look.open.end(), [](const auto& a, const auto& b) { return a.unseen == b.unseen; }),
+                  look.open.end());
   std::stable_sort(volume.begin(), volume.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t i = 0; i < volume.size();) {
     double sum = 0.0;
@@ -248,10 +249,10 @@ Field<Dim, std::uint8_t> squeezed_nodes(const BeliefView<Dim>& view, const Field
   return squeezed;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                           \
-  template double depth_behind<D>(const BeliefView<D>&, const BoundaryFace<D>&, double);                                                 \
-  template Mesh<D> patch_mesh<D>(std::span<const Patch<D>>, double);                                                                     \
-  template class LastLooks<D>;                                                                                                           \
+#define VANTAGE_INSTANTIATE(D)                                                           \
+  template double depth_behind<D>(const BeliefView<D>&, const BoundaryFace<D>&, double); \
+  template Mesh<D> patch_mesh<D>(std::span<const Patch<D>>, double);                     \
+  template class LastLooks<D>;                                                           \
   template Field<D, std::uint8_t> squeezed_nodes<D>(const BeliefView<D>&, const Field<D, std::uint8_t>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

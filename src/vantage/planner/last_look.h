@@ -21,9 +21,11 @@ struct LastLook {
   struct Open {
     std::size_t unseen = 0;        ///< Node that may be seen.
     std::size_t viewer = kNoNode;  ///< Node it is seen from best, of those tried.
+    bool slit = false;             ///< Only through a gap of the known surface.
   };
-  bool asked = false;                ///< False: `open` says nothing.
-  std::vector<std::size_t> stubborn;  ///< Ascending: unseen nodes in the open that stay unseen although nothing known hides them from where one stood.
+  bool asked = false;  ///< False: `open` says nothing.
+  std::vector<std::size_t>
+      stubborn;                      ///< Ascending: unseen nodes in the open that stay unseen although nothing known hides them from where one stood.
   std::vector<Open> open;            ///< Ascending by `unseen`, none twice.
   std::optional<std::size_t> place;  ///< The node from where most may open.
   double volume = 0.0;               ///< At most, from there [m^Dim].
@@ -36,9 +38,9 @@ template <int Dim>
 struct Ground {
   const Field<Dim, std::uint8_t>& reachable;
   std::span<const Vec<Dim>> visited;
-  double max_range = 80.0;                    ///< Of the sensor [m].
-  const RayCaster<Dim>* surface = nullptr;    ///< As known; none: every obstacle node is in the way.
-  bool slits = true;                          ///< Ask for slits too.
+  double max_range = 80.0;                  ///< Of the sensor [m].
+  const RayCaster<Dim>* surface = nullptr;  ///< As known; none: every obstacle node is in the way.
+  bool slits = true;                        ///< Ask for what lies beside the known surface too: slits, and the shadow boundary there.
 };
 
 /// Known patches as a mesh for rays, each grown by `margin` in its own plane [m].
@@ -62,14 +64,16 @@ class LastLooks {
     std::size_t unseen = 0;
     Vec<Dim> center, step;  // Of the face; from the unseen node.
     double behind = 0.0;    // Volume straight behind it [m^Dim].
+    bool slit = false;
   };
-  [[nodiscard]] std::vector<Question> questions(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Ground<Dim>& ground) const;
+  [[nodiscard]] std::vector<Question> questions(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces,
+                                                const Ground<Dim>& ground) const;
 
   Field<Dim> answered_;  // Per unseen node; 1: looked at frontally.
 };
 
-/// Seen nodes that someone with the clearance might get to although no node of the lattice leads there: known places half a step apart are tried, with
-/// the distance to the surface that their nodes allow. The reachable nodes are not among them (1, else 0).
+/// Seen nodes that someone with the clearance might get to although no node of the lattice leads there: known places half a step apart are tried,
+/// with the distance to the surface that their nodes allow. The reachable nodes are not among them (1, else 0).
 template <int Dim>
 [[nodiscard]] Field<Dim, std::uint8_t> squeezed_nodes(const BeliefView<Dim>& view, const Field<Dim, std::uint8_t>& reachable, double clearance);
 

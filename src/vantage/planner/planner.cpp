@@ -54,9 +54,10 @@ void check_weights(const std::vector<double>& weights) {
 
 void describe(PlannerOptions& o, const OptionVisitor& visit) {
   using namespace std::string_literals;
-  visit("metric", o.metric, Choices{"ray", "boundary", "nearest", "count", "random"},
-        "form of E: rays to the shadow boundary, or the paper's sum over its elements; or instead of E: nearest frontier, number of frontier faces in "
-        "view, any medial place");
+  visit(
+      "metric", o.metric, Choices{"ray", "boundary", "nearest", "count", "random"},
+      "form of E: rays to the shadow boundary, or the paper's sum over its elements; or instead of E: nearest frontier, number of frontier faces in "
+      "view, any medial place");
   visit("volume_weight", o.volume_weight, "", Range{0, 1e6}, "ray form: weight of the expected new volume");
   visit("solid_angle_weight", o.solid_angle_weight, "", Range{0, 1e6}, "ray form: weight of the shadow boundary's solid angle");
   visit("area_weight", o.area_weight, "", Range{0, 1e6}, "ray form: weight of Eq. (1) with line of sight");
@@ -178,8 +179,7 @@ auto Planner<Dim>::score_by_baseline(const BeliefView<Dim>& view, std::span<cons
   const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_ * 1000003 + visited_.size());
   std::vector<Scored> scored;
   for (const std::size_t node : nodes) scored.push_back({node, {}, 0.0});
-  if (options_.metric == Metric::random && !medial.empty())
-    scored.push_back({medial[Random(seed_, visited_.size()).below(medial.size())], {}, 1.0});
+  if (options_.metric == Metric::random && !medial.empty()) scored.push_back({medial[Random(seed_, visited_.size()).below(medial.size())], {}, 1.0});
   if (options_.metric == Metric::nearest) {
     const double h = view.window().spacing;
     const auto places = frontier_places<Dim>(reachable_, frontier, visited_, options_.clearance + 1.5 * h);

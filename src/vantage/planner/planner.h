@@ -72,13 +72,13 @@ class Planner {
   std::vector<Vec<Dim>> visited_;
   Field<Dim, std::uint8_t> reachable_;
   MarchGrid<Dim> grid_;  // Of the last decision's belief.
-  Field<Dim> weight_;  // w per node; empty: 1 everywhere.
-  RaySums scale_;      // Largest of each term over the candidates of the last decision.
+  Field<Dim> weight_;    // w per node; empty: 1 everywhere.
+  RaySums scale_;        // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
   std::function<std::vector<Patch<Dim>>()> surface_;
   LastLooks<Dim> looks_;
   Glimpses<Dim> glimpses_;
-  LastLook last_look_, squeezed_;                        // Empty while there is better to do.
+  LastLook last_look_, squeezed_;              // Empty while there is better to do.
   int below_ = 0, idle_ = 0, last_looks_ = 0;  // Picks in a row.
 };
 

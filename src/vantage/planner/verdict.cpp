@@ -10,18 +10,19 @@
 namespace vantage {
 namespace {
 
-constexpr double kGlimpses = 4.0;  // Nodes; fewer are chance.
+constexpr double kLattice = 0.002;  // What the place of the lattice may make of a share.
+constexpr double kGlimpses = 4.0;   // Nodes; fewer are chance.
 
 /// What hangs together and is unseen.
 template <int Dim>
 struct Part {
   double nodes = 0.0;
-  double clear = 0.0;      // Of them farther than h from the known surface: the others are no loss, nobody can tell them from the surface.
-  double deepest = 0.0;    // Largest -psi [m].
-  Index<Dim> low, high;    // Inclusive.
-  double open = 0.0;       // What its faces are expected to open [m^Dim].
-  double rim = 0.0;        // A layer of cells behind its faces [m^Dim].
-  double glimpsed = 0.0;   // Nodes a ray went by.
+  double clear = 0.0;            // Of them farther than h from the known surface: the others are no loss, nobody can tell them from the surface.
+  double deepest = 0.0;          // Largest -psi [m].
+  Index<Dim> low, high;          // Inclusive.
+  double open = 0.0;             // What its faces are expected to open [m^Dim].
+  double rim = 0.0;              // A layer of cells behind its faces [m^Dim].
+  double glimpsed = 0.0;         // Nodes a ray went by.
   std::size_t viewer = kNoNode;  // Sees a part of it that may open.
   bool has_face = false, reachable = false, doubtful = false, squeezed = false;
 };
@@ -103,7 +104,8 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
     if (look == nullptr || !look->asked) continue;
     for (const LastLook::Open& open : look->open) {
       Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(open.unseen))];
-      (look == options.last_look ? part.doubtful : part.squeezed) = true;
+      // Gaps of the surface mostly are places between the rays; where light got through one, there is a glimpse.
+      if (!open.slit) (look == options.last_look ? part.doubtful : part.squeezed) = true;
       if (look == options.last_look && part.viewer == kNoNode) part.viewer = open.viewer;
     }
   }
@@ -177,7 +179,8 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   add_faces(view, faces, reachable, regions, options, parts);
   if (options.glimpsed != nullptr)
     options.glimpsed->for_each(view.state, [&](std::size_t node) {
-      if (static_cast<double>(view.known_distance[node]) > h && static_cast<double>(view.psi[node]) < -2.0 * h) parts[static_cast<std::size_t>(regions.region_of(node))].glimpsed += 1.0;
+      const bool clear = static_cast<double>(view.known_distance[node]) > h, deep = static_cast<double>(view.psi[node]) < -2.0 * h;
+      if (clear && deep) parts[static_cast<std::size_t>(regions.region_of(node))].glimpsed += 1.0;
     });
 
   const Box<Dim> ground = bounds_of(reachable);
@@ -204,8 +207,8 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   const double seen = static_cast<double>(clear_nodes(view)) * cell;
   const auto share = [&](double rest) { return seen + rest > 0.0 ? seen / (seen + rest) : 0.0; };
   verdict.seen_fraction = share(open);
-  verdict.seen_low = share(most);
-  verdict.seen_high = share(least);
+  verdict.seen_low = share(most + kLattice * seen);
+  verdict.seen_high = std::min(1.0, share(least) + kLattice);
   return verdict;
 }
 

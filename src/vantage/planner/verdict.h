@@ -44,11 +44,11 @@ struct Verdict {
 
 template <int Dim>
 struct AssessOptions {
-  double opacity = 0.0;       ///< measured_opacity times its factor [1/m].
-  double max_range = 80.0;    ///< Of the sensor [m].
-  double least_volume = 0.0;  ///< Smaller regions are not listed [m^Dim].
-  const LastLook* last_look = nullptr;           ///< Of the same faces, if they were looked for.
-  const LastLook* squeezed = nullptr;            ///< The same from squeezed_nodes().
+  double opacity = 0.0;                 ///< measured_opacity times its factor [1/m].
+  double max_range = 80.0;              ///< Of the sensor [m].
+  double least_volume = 0.0;            ///< Smaller regions are not listed [m^Dim].
+  const LastLook* last_look = nullptr;  ///< Of the same faces, if they were looked for.
+  const LastLook* squeezed = nullptr;   ///< The same from squeezed_nodes().
   const Glimpses<Dim>* glimpsed = nullptr;
 };
 
