@@ -209,19 +209,35 @@ template <int Dim>
 Field<Dim, std::uint8_t> squeezed_nodes(const BeliefView<Dim>& view, const Field<Dim, std::uint8_t>& reachable, double clearance) {
   const Grid<Dim>& grid = view.window();
   Grid<Dim> fine{0.5 * grid.spacing, 2 * grid.first, (2 * grid.extent.array() - 1).matrix()};
+  const auto known = [&](const Index<Dim>& node) { return static_cast<double>(view.known_distance.at(node)); };
+  // Distance half a step beyond a node, away from what lies behind it: farther from a wall right behind, no farther along a passage.
+  const auto beyond = [&](const Index<Dim>& node, const Index<Dim>& step) {
+    const Index<Dim> behind = node - step;
+    if (!grid.inside(behind)) return known(node);
+    const double slope = view.state.at(behind) == NodeState::obstacle ? 1.0 : (known(node) - known(behind)) / grid.spacing;
+    return known(node) + 0.5 * grid.spacing * std::clamp(slope, 0.0, 1.0);
+  };
   const auto passable = [&](const Index<Dim>& place) {
     const Index<Dim> low = place / 2, odd = place - 2 * low;
     const Grid<Dim> corners{1.0, low, Index<Dim>(odd.array() + 1)};
-    double nearest = kInfinity;
     bool all_obstacle = true;
     for (std::size_t c = 0; c < corners.size(); ++c) {
-      const std::size_t node = grid.linear(low + corners.local(c));
-      if (view.state[node] == NodeState::unseen) return false;
-      all_obstacle = all_obstacle && view.state[node] == NodeState::obstacle;
-      nearest = std::min(nearest, static_cast<double>(view.known_distance[node]));
+      const NodeState state = view.state.at(low + corners.local(c));
+      if (state == NodeState::unseen) return false;
+      all_obstacle = all_obstacle && state == NodeState::obstacle;
     }
-    // Halfway across a passage the walls on both sides are half a step farther away.
-    return !all_obstacle && nearest + (odd.any() ? 0.5 * grid.spacing : 0.0) >= clearance;
+    if (all_obstacle) return false;
+    double distance = odd.any() ? 0.0 : known(low);
+    for (int a = 0; a < Dim; ++a) {
+      if (odd[a] == 0) continue;
+      double across = kInfinity;  // Between the nodes on both sides along this axis.
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Index<Dim> local = corners.local(c), step = (local[a] == 0 ? 1 : -1) * Index<Dim>::Unit(a);
+        across = std::min(across, beyond(low + local, step));
+      }
+      distance = std::max(distance, across);
+    }
+    return distance >= clearance;
   };
   Field<Dim, std::uint8_t> squeezed(grid), tried(fine);
   std::vector<std::size_t> queue;

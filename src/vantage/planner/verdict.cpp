@@ -117,7 +117,8 @@ struct Share {
 };
 
 template <int Dim>
-Share share_of(const Part<Dim>& part, double cell) {
+Share share_of(const Part<Dim>& part, double h) {
+  const double cell = cell_measure<Dim>(h, Dim);
   const double all = part.clear * cell;
   const bool entered = part.glimpsed >= kGlimpses;
   Share share;
@@ -127,7 +128,7 @@ Share share_of(const Part<Dim>& part, double cell) {
   // Light gets in where no opening is known: as much as not may be seen that way.
   if (entered) share.expected = std::max(share.expected, std::min(0.5 * (share.least + share.most), 4.0 * part.glimpsed * cell));
   // A passage the lattice is too coarse for leads to where nobody has looked.
-  if (part.squeezed && !part.doubtful) share.expected = share.most;
+  if (part.squeezed && !part.doubtful && part.deepest >= 2.0 * h) share.expected = share.most;
   return share;
 }
 
@@ -188,7 +189,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   Verdict<Dim> verdict;
   for (const Part<Dim>& part : parts) {
     const double volume = part.nodes * cell;
-    const Share share = share_of(part, cell);
+    const Share share = share_of(part, h);
     open += share.expected;
     most += share.most;
     least += share.least;
