@@ -18,12 +18,12 @@ struct SmallScene {
 /// What a run came to, and what must hold of every run whatever the place, judged by the truth.
 struct Ending {
   std::int64_t scans = 0;
-  bool ended = false;           ///< By itself, before the limit of scans.
-  bool reason_true = false;     ///< Nothing contradicts the reason given, see ending.cpp.
-  bool verdict_right = false;   ///< See score.h.
-  std::int64_t repeated = 0;    ///< Vantage points nearer than half a cell to an earlier one.
-  std::int64_t collisions = 0;  ///< Pieces of the way that cross a surface, or vantage points inside a solid.
-  std::int64_t unsafe = 0;  ///< Pieces of the way over nodes not seen by then, or too near to the surface known by then.
+  bool ended = false;                  ///< By itself, before the limit of scans.
+  bool reason_true = false;            ///< Nothing contradicts the reason given, see ending.cpp.
+  bool verdict_right = false;          ///< See score.h.
+  std::int64_t repeated = 0;           ///< Vantage points nearer than half a cell to an earlier one.
+  std::int64_t collisions = 0;         ///< Pieces of the way that cross a surface, or vantage points inside a solid.
+  std::int64_t unsafe = 0;             ///< Pieces of the way over nodes not seen by then, or too near to the surface known by then.
   double least_clearance = kInfinity;  ///< Of the way to any surface, known or not; at most a metre [m].
   double falsely_free = 0.0;           ///< See Coverage [m^d].
   double share = 0.0;                  ///< Of the reference set seen at the end [1].

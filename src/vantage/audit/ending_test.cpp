@@ -51,8 +51,8 @@ TYPED_TEST(SmallScenes, TheSymmetricAreSymmetric) {
 
 std::string story(const SmallScene& scene, const Ending& e) {
   return std::string(small_kinds()[static_cast<std::size_t>(scene.kind)]) + " " + std::to_string(scene.dim) + "D seed " + std::to_string(scene.seed) +
-         ": " + e.error + e.reason + " share " + std::to_string(e.share) + ", said " + std::to_string(e.complete) + " " + std::to_string(e.low) + " .. " +
-         std::to_string(e.high);
+         ": " + e.error + e.reason + " share " + std::to_string(e.share) + ", said " + std::to_string(e.complete) + " " + std::to_string(e.low) +
+         " .. " + std::to_string(e.high);
 }
 
 /// Whatever the place: every run ends by itself for the reason it gives, never stands in the same place twice and never hits anything.
