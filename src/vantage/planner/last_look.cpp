@@ -138,6 +138,9 @@ auto LastLooks<Dim>::questions(const BeliefView<Dim>& view, std::span<const Boun
       all.push_back({slit.unseen, 0.5 * (grid.position(i) + grid.position(to)), slit.step(), 0.25 * area * depth, true});
     }
   }
+  if (ground.weight == nullptr) return all;
+  for (Question& question : all) question.behind *= static_cast<double>((*ground.weight)[question.unseen]);
+  std::erase_if(all, [](const Question& question) { return !(question.behind > 0.0); });
   return all;
 }
 

@@ -41,6 +41,7 @@ struct Ground {
   double max_range = 80.0;                  ///< Of the sensor [m].
   const RayCaster<Dim>* surface = nullptr;  ///< As known; none: every obstacle node is in the way.
   bool slits = true;                        ///< Ask for what lies beside the known surface too: slits, and the shadow boundary there.
+  const Field<Dim>* weight = nullptr;       ///< w per node, as RayMarch::Medium; nobody looks where it is 0.
 };
 
 /// Known patches as a mesh for rays, each grown by `margin` in its own plane [m].

@@ -259,7 +259,8 @@ template <int Dim>
 void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decision) {
   std::optional<RayCaster<Dim>> surface;
   if (surface_) surface.emplace(patch_mesh<Dim>(surface_(), 0.3 * view.window().spacing));
-  const Ground<Dim> ground{reachable_, visited_, max_range_, surface ? &*surface : nullptr};
+  const Field<Dim>* weight = weight_.values.empty() ? nullptr : &weight_;
+  const Ground<Dim> ground{reachable_, visited_, max_range_, surface ? &*surface : nullptr, true, weight};
   last_look_ = looks_.look(view, opening_.faces(), ground);
   if (last_look_.place && last_looks_ < options_.last_looks) {
     ++last_looks_;
@@ -271,7 +272,7 @@ void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decisi
     return;
   }
   const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);
-  squeezed_ = looks_.look(view, opening_.faces(), {squeezed, visited_, max_range_, ground.surface, false});
+  squeezed_ = looks_.look(view, opening_.faces(), {squeezed, visited_, max_range_, ground.surface, false, weight});
 }
 
 template <int Dim>
