@@ -3,6 +3,7 @@
 
 #include "arguments.h"
 #include "audit_campaign.h"
+#include "audit_generated.h"
 #include "audit_report.h"
 #include "audit_run.h"
 #include "commands.h"
@@ -26,12 +27,13 @@ constexpr const char* kExamples =
     "  vantage audit blocks office town2d --layouts 10 --variants all -o tables/rooms\n"
     "  vantage audit planar --variant calm=planner.lambda_factor=1,planner.rays=800\n"
     "  vantage audit runs/town --truth town --json         one run, beside oracles and baselines\n"
+    "  vantage audit --generated 500                       small random scenes, each played to its end and checked\n"
     "Exit: 0 done, 130 stopped and kept, 2 bad input, 3 files, 4 memory.";
 
 struct Flags {
   std::vector<std::string> places, sets, own;
-  std::string truth, folder = "audit", variants, layouts, starts, seed, voxel, step, cap, targets, candidates, walls, threads;
-  bool scene_start = false, to_the_end = false, curves = false, json = false, quiet = false;
+  std::string truth, folder, variants, layouts, starts, seed, voxel, step, cap, targets, candidates, walls, threads, generated, kinds;
+  bool scene_start = false, to_the_end = false, curves = false, json = false, quiet = false, verbose = false;
 };
 
 void add_flags(CommandParser& parser, Flags& flags) {
@@ -51,6 +53,10 @@ void add_flags(CommandParser& parser, Flags& flags) {
   several("--set", flags.sets, "STAGE.OPTION=VALUE", "an option of every run; vantage config dump lists them");
   parser.option("--voxel", flags.voxel, "METRES", "lattice spacing of every run (default: the scene's)", what);
   parser.option("--step-deg", flags.step, "DEGREES", "between the sensor's rays", what);
+  parser.option("--generated", flags.generated, "N",
+                "instead of scenes: N small random ones, each to its end: does it end, is the verdict right, is the way free? --seed: of the first",
+                what);
+  parser.option("--kinds", flags.kinds, "A,B", "of generated scenes (default all): rooms, maze-2d, …", what);
   parser.flag("--to-the-end", flags.to_the_end, "go on after 99 % until the explorer stops, to judge its verdict", method);
   parser.option("--cap", flags.cap, "FACTOR", "scans of a run up to 99 %, at most, over those of its oracle (default 3)", method);
   parser.option("--seed", flags.seed, "N", "of the starts (default 2026)", method);
@@ -61,6 +67,7 @@ void add_flags(CommandParser& parser, Flags& flags) {
   parser.option("-o,--output", flags.folder, "AUDIT", "folder of the runs, audit.json and report.html (default audit)", output);
   parser.flag("--curves", flags.curves, "print place and share after every scan", output);
   parser.flag("--json", flags.json, "print audit.json (of a run folder: its score) instead of the table", output);
+  parser.flag("-v,--verbose", flags.verbose, "a line for every generated scene", output);
   parser.flag("-q,--quiet", flags.quiet, "no progress, no table", output);
 }
 
@@ -72,7 +79,7 @@ void take(const std::string& option, const std::string& text, std::int64_t low, 
 AuditPlan plan_of(const Flags& flags, bool run) {
   AuditPlan plan;
   plan.scenes = flags.places;
-  plan.folder = flags.folder;
+  plan.folder = flags.folder.empty() ? "audit" : flags.folder;
   plan.scene_start = flags.scene_start;
   plan.to_the_end = flags.to_the_end;
   plan.variants = chosen_variants(!flags.variants.empty() ? flags.variants
@@ -136,6 +143,25 @@ int play(const Flags& flags) {
   return static_cast<int>(ErrorCode::interrupted);
 }
 
+int play_small_scenes(const Flags& flags) {
+  GeneratedPlan plan;
+  plan.kinds = kinds_of(flags.kinds);
+  plan.folder = flags.folder;
+  take("--generated", flags.generated, 1, 100'000'000, plan.count);
+  take("--seed", flags.seed, 0, 1'000'000'000, plan.seed);
+  AuditProgress progress(flags.quiet);
+  const GeneratedOutcome outcome = play_generated(plan, progress, [&](const Json& ending) {
+    if (!flags.verbose || flags.quiet || flags.json) return;
+    progress.finish();
+    fmt::print("{}", ending_text(ending));
+  });
+  progress.finish();
+  print(flags, outcome.json, generated_text(outcome.json));
+  if (outcome.complete) return 0;
+  if (!flags.quiet) fmt::print(stderr, "vantage: stopped{}\n", plan.folder.empty() ? "" : "; the same command goes on");
+  return static_cast<int>(ErrorCode::interrupted);
+}
+
 }  // namespace
 
 int audit_command(const Arguments& arguments) {
@@ -143,6 +169,13 @@ int audit_command(const Arguments& arguments) {
   Flags flags;
   add_flags(parser, flags);
   if (!parser.parse(arguments)) return 0;
+  if (!flags.generated.empty()) {
+    require(flags.places.empty(), "--generated: takes no SCENE");
+    const ThreadLimit limit(flags.threads.empty() ? 0 : static_cast<int>(whole_number("--threads", flags.threads, 1, 1024)));
+    const StopSignals signals;
+    return play_small_scenes(flags);
+  }
+  require(flags.kinds.empty(), "--kinds: only with --generated");
   require(!flags.places.empty(), "SCENE is missing: vantage scene --list names some");
   const ThreadLimit limit(flags.threads.empty() ? 0 : static_cast<int>(whole_number("--threads", flags.threads, 1, 1024)));
   const StopSignals signals;

@@ -19,6 +19,11 @@ class AuditProgress final : public vantage::Observer {
   /// The run is finished, played now or found in the folder.
   void done(const std::string& result);
   void found() { ++done_; }
+  /// One of many that are played at a time: counts, prints nothing.
+  void played() {
+    ++done_;
+    ++played_;
+  }
   /// Takes the live line away; call before printing anything else.
   void finish() { line_.reset(); }
 

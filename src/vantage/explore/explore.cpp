@@ -134,11 +134,17 @@ struct Explorer<Dim>::Impl {
       const std::vector<Vec<Dim>> walls = options.fill ? fill_between_rays(scan, 0.5 * window.spacing) : std::vector<Vec<Dim>>{};
       belief.unite(seen, distance_to_patches<Dim>(patches, near, belief.known_cap()), walls);
     });
-    if (!planner) planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
+    if (!planner) {
+      planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
+      planner->know_surface([this] { return surface.patches(); });
+    }
     record.seen_volume = belief.seen_volume();
     record.new_volume = std::max(0.0, record.seen_volume - seen_before);
     decision = timed("planner", [&] { return planner->choose(belief.view(), scan.origin, record.new_volume); });  // arg max E, Eq. (1)
-    verdict = timed("verdict", [&] { return planner->assess(belief.view()); });
+    verdict = timed("verdict", [&] {
+      planner->note(belief.view(), scan);
+      return planner->assess(belief.view());
+    });
 
     record.vantage = scan.origin;
     record.points = update.points;
@@ -161,7 +167,10 @@ struct Explorer<Dim>::Impl {
   void judge() {
     using End = typename Decision<Dim>::End;
     constexpr double kComplete = 0.99;  // Of what can be seen, as estimated.
-    verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete;
+    verdict.end = decision.end;
+    constexpr double kSure = 0.9;  // At least.
+    verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete &&
+                       verdict.seen_low >= kSure;
     if (decision.end == End::none)
       for (UnseenRegion<Dim>& region : verdict.unseen)
         if (region.reason == "below the threshold") region.reason = "not looked at yet";

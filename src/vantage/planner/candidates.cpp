@@ -123,21 +123,25 @@ Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<
       row[k] = view.seen(first + k) &&
                (static_cast<double>(view.known_distance[first + k]) >= clearance || (cramped && (grid.position(first + k) - from).norm() <= near));
   });
-  // Every seen node beside the scanner begins a region that is reached.
-  std::vector<std::uint8_t> reached(passable.count());
+  // The region of the nearest such node beside the scanner: another one beside it may lie behind a wall.
+  std::int32_t reached = -1;
+  double nearest = kInfinity;
   int corners = 1;
   for (int a = 0; a < Dim; ++a) corners *= 3;
   for (int code = 0; code < corners; ++code) {
     Index<Dim> node = home;
     for (int a = 0, rest = code; a < Dim; ++a, rest /= 3) node[a] += rest % 3 - 1;
     const std::int32_t region = grid.inside(node) ? passable.region_of(grid.linear(node)) : -1;
-    if (region >= 0) reached[static_cast<std::size_t>(region)] = 1;
+    const double distance = (grid.position(node) - from).squaredNorm();
+    if (region < 0 || distance >= nearest) continue;
+    reached = region;
+    nearest = distance;
   }
   Field<Dim, std::uint8_t> nodes(grid);
   parallel_for(passable.rows(), 256, [&](std::size_t r) {
     std::uint8_t* row = nodes.values.data() + r * passable.row_length();
     for (const auto& run : passable.row(r))
-      if (reached[static_cast<std::size_t>(run.region)] != 0) std::fill(row + run.begin, row + run.end, std::uint8_t{1});
+      if (run.region == reached) std::fill(row + run.begin, row + run.end, std::uint8_t{1});
   });
   return nodes;
 }

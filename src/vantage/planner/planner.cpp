@@ -79,6 +79,8 @@ void describe(PlannerOptions& o, const OptionVisitor& visit) {
   visit("clearance", o.clearance, "m", Range{0, 1e3}, "of a vantage point and of the path to known obstacles");
   visit("stop_volume", o.stop_volume, "", Range{0, 1}, "stop when the expected new volume is below this share of the seen, twice in a row");
   visit("idle_limit", o.idle_limit, "scans", Range{1, 1e6}, "stop after so many in a row that gained nothing");
+  visit("last_looks", o.last_looks, "scans", Range{0, 1e6},
+        "before the end, look so often in a row at what nobody has looked at frontally, although little is expected of it");
   visit("report_volume", o.report_volume, "m^d", Range{0, 1e9}, "smaller unseen regions are not listed; 0: 27 cells (2D: 9)");
 }
 
@@ -265,7 +267,32 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   }
   decision.end = end_of(decision, seen_volume);
   decision.found = decision.end == Decision<Dim>::End::none;
+  last_look_ = squeezed_ = {};
+  if (new_volume >= options_.stop_volume * seen_volume) last_looks_ = 0;
+  if (!decision.found && decision.end != Decision<Dim>::End::idle) look_again(view, decision);
   return decision;
+}
+
+/// Nothing much is expected any more: is there a face nobody has looked at, and a place that sees it?
+template <int Dim>
+  requires SpatialDim<Dim>
+void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decision) {
+  std::optional<RayCaster<Dim>> surface;
+  if (surface_) surface.emplace(patch_mesh<Dim>(surface_(), 0.3 * view.window().spacing));
+  const Field<Dim>* weight = weight_.values.empty() ? nullptr : &weight_;
+  const Ground<Dim> ground{reachable_, visited_, max_range_, surface ? &*surface : nullptr, true, weight};
+  last_look_ = looks_.look(view, opening_.faces(), ground);
+  if (last_look_.place && last_looks_ < options_.last_looks) {
+    ++last_looks_;
+    looks_.answer(view, opening_.faces(), ground, *last_look_.place);
+    decision.found = true;
+    decision.end = Decision<Dim>::End::none;
+    decision.position = view.window().position(*last_look_.place);
+    decision.path = safe_path(reachable_, *last_look_.place, visited_.back());
+    return;
+  }
+  const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);
+  squeezed_ = looks_.look(view, opening_.faces(), {squeezed, visited_, max_range_, ground.surface, false, weight});
 }
 
 template <int Dim>
@@ -293,7 +320,7 @@ Verdict<Dim> Planner<Dim>::assess(const BeliefView<Dim>& view) const {
     least = 1.0;
     for (int a = 0; a < Dim; ++a) least *= 3.0 * view.window().spacing;
   }
-  return vantage::assess<Dim>(view, opening_.faces(), reachable_, {opacity_, max_range_, least});
+  return vantage::assess<Dim>(view, opening_.faces(), reachable_, {opacity_, max_range_, least, &last_look_, &squeezed_, &glimpses_});
 }
 
 template class Planner<2>;

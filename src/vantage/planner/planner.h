@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,8 @@ struct Decision {
   double expected_volume = 0.0;          ///< Largest over the candidates [m^Dim].
   std::int64_t candidates = 0;           ///< Evaluated.
   std::vector<Vec<Dim>> path;            ///< From where we are to `position` [m].
-  enum class End { none, nothing_can_open, below_threshold, idle, unreachable } end = End::none;
+  using End = StopReason;
+  End end = End::none;
   std::vector<std::pair<std::size_t, float>> scored;  ///< Candidates (linear index) and their E.
 };
 
@@ -37,6 +39,11 @@ class Planner {
 
   /// arg max E after a scan at `here`, which saw `new_volume` for the first time [m^Dim].
   [[nodiscard]] Decision<Dim> choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume);
+
+  /// How to get the surface as known: before the end, places are sought that see through its gaps. Without it every obstacle node hides.
+  void know_surface(std::function<std::vector<Patch<Dim>>()> surface) { surface_ = std::move(surface); }
+  /// Takes note of where a scan's rays went although the belief calls it unseen; after the scan was united with the belief, before assess().
+  void note(const BeliefView<Dim>& view, const Scan<Dim>& scan) { glimpses_.note(view, scan); }
 
   /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be. Baselines: the ray form.
   [[nodiscard]] std::vector<double> evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const;
@@ -56,6 +63,7 @@ class Planner {
                                                       std::span<const std::size_t> medial);
   [[nodiscard]] std::vector<Scored> score_by_optimism(const BeliefView<Dim>& view, std::span<const std::size_t> medial);
   [[nodiscard]] typename Decision<Dim>::End end_of(const Decision<Dim>& decision, double seen_volume);
+  void look_again(const BeliefView<Dim>& view, Decision<Dim>& decision);
   [[nodiscard]] double mix(const RaySums& sums) const;
   void set_scale(std::span<const Scored> scored);
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
@@ -71,7 +79,11 @@ class Planner {
   Field<Dim> weight_;  // w per node; empty: 1 everywhere.
   RaySums scale_;      // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
-  int below_ = 0, idle_ = 0;  // Picks in a row.
+  std::function<std::vector<Patch<Dim>>()> surface_;
+  LastLooks<Dim> looks_;
+  Glimpses<Dim> glimpses_;
+  LastLook last_look_, squeezed_;              // Empty while there is better to do.
+  int below_ = 0, idle_ = 0, last_looks_ = 0;  // Picks in a row.
 };
 
 }  // namespace vantage

@@ -251,7 +251,7 @@ TYPED_TEST(PlannerTest, RegionsBeyondRangeOrReachAreNamedSo) {
   opening.update(belief.view(), on_axis<Dim>(-4.0), 80.0);
   const auto reached = reachable_nodes<Dim>(belief.view(), on_axis<Dim>(-4.0), 0.3);
   const auto reason = [&](double range) {
-    const Verdict<Dim> verdict = assess<Dim>(belief.view(), opening.faces(), reached, {0.1, range, 0.0});
+    const Verdict<Dim> verdict = assess<Dim>(belief.view(), opening.faces(), reached, {.opacity = 0.1, .max_range = range});
     return verdict.unseen.at(0).reason;
   };
   EXPECT_EQ(reason(80.0), "no reachable view");

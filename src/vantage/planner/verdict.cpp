@@ -10,14 +10,21 @@
 namespace vantage {
 namespace {
 
+constexpr double kLattice = 0.002;  // What the place of the lattice may make of a share.
+constexpr double kGlimpses = 4.0;   // Nodes; fewer are chance.
+
 /// What hangs together and is unseen.
 template <int Dim>
 struct Part {
   double nodes = 0.0;
-  double deepest = 0.0;                                  // Largest -psi [m].
-  Index<Dim> low, high;                                  // Inclusive.
-  double open = 0.0, open_most = 0.0, open_least = 0.0;  // What its faces may open [m^Dim].
-  bool has_face = false, reachable = false;
+  double clear = 0.0;            // Of them farther than h from the known surface: the others are no loss, nobody can tell them from the surface.
+  double deepest = 0.0;          // Largest -psi [m].
+  Index<Dim> low, high;          // Inclusive.
+  double open = 0.0;             // What its faces are expected to open [m^Dim].
+  double rim = 0.0;              // A layer of cells behind its faces [m^Dim].
+  double glimpsed = 0.0;         // Nodes a ray went by.
+  std::size_t viewer = kNoNode;  // Sees a part of it that may open.
+  bool has_face = false, reachable = false, doubtful = false, squeezed = false;
 };
 
 template <int Dim>
@@ -32,23 +39,12 @@ std::vector<Part<Dim>> parts_of(const BeliefView<Dim>& view, const Regions<Dim>&
       part.low = part.nodes > 0.0 ? Index<Dim>(part.low.cwiseMin(begin)) : begin;
       part.high = part.nodes > 0.0 ? Index<Dim>(part.high.cwiseMax(end)) : end;
       part.nodes += static_cast<double>(run.end - run.begin);
+      for (std::size_t i = first + run.begin; i < first + run.end; ++i) part.clear += static_cast<double>(view.known_distance[i]) > grid.spacing;
       const float least = *std::min_element(view.psi.values.begin() + static_cast<std::ptrdiff_t>(first + run.begin),
                                             view.psi.values.begin() + static_cast<std::ptrdiff_t>(first + run.end));
       part.deepest = std::max(part.deepest, -static_cast<double>(least));
     }
   return parts;
-}
-
-/// Length of the unseen straight behind a face, at most `limit` [m].
-template <int Dim>
-double depth_behind(const BeliefView<Dim>& view, const BoundaryFace<Dim>& face, double limit) {
-  const Grid<Dim>& grid = view.window();
-  const int axis = face.direction / 2, inward = face.direction % 2 == 0 ? 1 : -1;
-  double depth = 0.0;
-  for (Index<Dim> node = grid.local(face.unseen); grid.inside(node) && view.state.at(node) == NodeState::unseen && depth < limit;
-       node[axis] += inward)
-    depth += grid.spacing;
-  return std::min(depth, limit);
 }
 
 /// Bounding box of the nodes that are 1 [m].
@@ -80,6 +76,84 @@ double cell_measure(double h, int power) {
   return value;
 }
 
+/// Behind a face that opens one sees as deep as it goes, or a mean free path.
+template <int Dim>
+void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
+               const Regions<Dim>& regions, const AssessOptions<Dim>& options, std::vector<Part<Dim>>& parts) {
+  const double h = view.window().spacing, face_area = cell_measure<Dim>(h, Dim - 1);
+  const double free_path = options.opacity > 0.0 ? 1.0 / options.opacity : kInfinity;
+  const bool looked_for = options.last_look != nullptr && options.last_look->asked;
+  for (const BoundaryFace<Dim>& face : faces) {
+    Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(face.unseen))];
+    const double behind = face_area * depth_behind(view, face, free_path);
+    const LastLook::Open* open = looked_for ? options.last_look->find(face.unseen) : nullptr;
+    const bool viewable = looked_for ? open != nullptr : reachable[face.seen] != 0;
+    part.has_face = true;
+    part.reachable = part.reachable || viewable;
+    part.rim += face_area * h;
+    const bool stubborn = looked_for && std::binary_search(options.last_look->stubborn.begin(), options.last_look->stubborn.end(), face.unseen);
+    if (stubborn) {
+      part.doubtful = true;
+      part.open += behind;
+    }
+    if (!viewable) continue;
+    part.doubtful = true;
+    part.open += behind * face.probability;
+  }
+  for (const LastLook* look : {options.last_look, options.squeezed}) {
+    if (look == nullptr || !look->asked) continue;
+    for (const LastLook::Open& open : look->open) {
+      Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(open.unseen))];
+      // Gaps of the surface mostly are places between the rays; where light got through one, there is a glimpse.
+      if (!open.slit) (look == options.last_look ? part.doubtful : part.squeezed) = true;
+      if (look == options.last_look && part.viewer == kNoNode) part.viewer = open.viewer;
+    }
+  }
+}
+
+/// What a part adds to the volume that can be seen [m^Dim].
+struct Share {
+  double least = 0.0, expected = 0.0, most = 0.0;
+};
+
+template <int Dim>
+Share share_of(const Part<Dim>& part, double h) {
+  const double cell = cell_measure<Dim>(h, Dim);
+  const double all = part.clear * cell;
+  const bool entered = part.glimpsed >= kGlimpses;
+  Share share;
+  share.least = 0.25 * std::min(all, part.glimpsed * cell);  // A ray through a cell does not show all of it.
+  share.most = part.doubtful || part.squeezed || entered ? all : std::min(all, part.rim);
+  share.expected = std::min(all, part.open);
+  // Light gets in where no opening is known: as much as not may be seen that way.
+  if (entered) share.expected = std::max(share.expected, std::min(0.5 * (share.least + share.most), 4.0 * part.glimpsed * cell));
+  // A passage the lattice is too coarse for leads to where nobody has looked.
+  if (part.squeezed && !part.doubtful && part.deepest >= 2.0 * h) share.expected = share.most;
+  return share;
+}
+
+template <int Dim>
+std::string reason_of(const Part<Dim>& part, double h, bool far) {
+  if (!part.has_face) return part.glimpsed > 0.0 ? "too fine for the lattice" : "enclosed";
+  if (part.deepest < h) return "too fine for the lattice";
+  if (!part.reachable) return far ? "beyond range" : "no reachable view";
+  return "below the threshold";
+}
+
+/// Seen nodes farther than h from the known surface.
+template <int Dim>
+std::size_t clear_nodes(const BeliefView<Dim>& view) {
+  return parallel_reduce(
+      view.state.values.size(), std::size_t{1} << 16, std::size_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          count += view.seen(i) && static_cast<double>(view.known_distance[i]) > view.window().spacing ? 1 : 0;
+        return count;
+      },
+      [](std::size_t& sum, std::size_t part) { sum += part; });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -96,62 +170,52 @@ std::size_t seen_nodes(const BeliefView<Dim>& view) {
 
 template <int Dim>
 Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
-                    const AssessOptions& options) {
+                    const AssessOptions<Dim>& options) {
   const Grid<Dim>& grid = view.window();
-  const double h = grid.spacing, cell = cell_measure<Dim>(h, Dim), face_area = cell_measure<Dim>(h, Dim - 1);
+  const double h = grid.spacing, cell = cell_measure<Dim>(h, Dim);
   const Regions<Dim> regions(grid, [&](std::size_t first, std::span<std::uint8_t> row) {
     for (std::size_t k = 0; k < row.size(); ++k) row[k] = view.state[first + k] == NodeState::unseen;
   });
   std::vector<Part<Dim>> parts = parts_of(view, regions);
-  // Behind a face that opens one sees as deep as it goes, or a mean free path.
-  const double free_path = options.opacity > 0.0 ? 1.0 / options.opacity : kInfinity;
-  for (const BoundaryFace<Dim>& face : faces) {
-    Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(face.unseen))];
-    const double behind = face_area * depth_behind(view, face, free_path);
-    part.has_face = true;
-    part.reachable = part.reachable || reachable[face.seen] != 0;
-    part.open += behind * face.probability;
-    part.open_most += behind * std::min(1.0, 2.0 * face.probability);
-    part.open_least += face.probability >= 0.9 ? behind * face.probability : 0.0;  // What is all but sure.
-  }
+  add_faces(view, faces, reachable, regions, options, parts);
+  if (options.glimpsed != nullptr)
+    options.glimpsed->for_each(view.state, [&](std::size_t node) {
+      const bool clear = static_cast<double>(view.known_distance[node]) > h, deep = static_cast<double>(view.psi[node]) < -2.0 * h;
+      if (clear && deep) parts[static_cast<std::size_t>(regions.region_of(node))].glimpsed += 1.0;
+    });
 
   const Box<Dim> ground = bounds_of(reachable);
-  double open = 0.0, open_most = 0.0, open_least = 0.0;
+  double open = 0.0, most = 0.0, least = 0.0;
   Verdict<Dim> verdict;
   for (const Part<Dim>& part : parts) {
     const double volume = part.nodes * cell;
-    open += std::min(volume, part.open);
-    open_most += std::min(volume, part.open_most);
-    open_least += std::min(volume, part.open_least);
+    const Share share = share_of(part, h);
+    open += share.expected;
+    most += share.most;
+    least += share.least;
     verdict.unseen_volume += volume;
     if (volume < options.least_volume) continue;
     UnseenRegion<Dim> region;
     region.volume = volume;
-    region.may_open = std::min(volume, part.open);
+    region.may_open = share.expected;
     region.box = {grid.position(part.low).array() - 0.5 * h, grid.position(part.high).array() + 0.5 * h};
-    if (!part.has_face)
-      region.reason = "enclosed";
-    else if (part.deepest < h)
-      region.reason = "too fine for the lattice";
-    else if (!part.reachable)
-      region.reason = gap(region.box, ground) > options.max_range ? "beyond range" : "no reachable view";
-    else
-      region.reason = "below the threshold";
+    region.reason = reason_of(part, h, gap(region.box, ground) > options.max_range);
+    if (part.viewer != kNoNode) region.open_from = grid.position(part.viewer);
     verdict.unseen.push_back(region);
   }
   std::stable_sort(verdict.unseen.begin(), verdict.unseen.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
 
-  const double seen = static_cast<double>(seen_nodes(view)) * cell;
+  const double seen = static_cast<double>(clear_nodes(view)) * cell;
   const auto share = [&](double rest) { return seen + rest > 0.0 ? seen / (seen + rest) : 0.0; };
   verdict.seen_fraction = share(open);
-  verdict.seen_low = share(open_most);
-  verdict.seen_high = share(open_least);
+  verdict.seen_low = share(most + kLattice * seen);
+  verdict.seen_high = std::min(1.0, share(least) + kLattice);
   return verdict;
 }
 
 template std::size_t seen_nodes<2>(const BeliefView<2>&);
 template std::size_t seen_nodes<3>(const BeliefView<3>&);
-template Verdict<2> assess<2>(const BeliefView<2>&, std::span<const BoundaryFace<2>>, const Field<2, std::uint8_t>&, const AssessOptions&);
-template Verdict<3> assess<3>(const BeliefView<3>&, std::span<const BoundaryFace<3>>, const Field<3, std::uint8_t>&, const AssessOptions&);
+template Verdict<2> assess<2>(const BeliefView<2>&, std::span<const BoundaryFace<2>>, const Field<2, std::uint8_t>&, const AssessOptions<2>&);
+template Verdict<3> assess<3>(const BeliefView<3>&, std::span<const BoundaryFace<3>>, const Field<3, std::uint8_t>&, const AssessOptions<3>&);
 
 }  // namespace vantage

@@ -46,12 +46,14 @@ std::string unseen_html(const Verdict<Dim>& verdict) {
                                          ">May open [" + std::string(volume_unit<Dim>()) + "]",
                                          "Size",
                                          "Around",
-                                         "Why"};
+                                         "Why",
+                                         "May open from [m]"};
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < verdict.unseen.size(); ++i) {
     const UnseenRegion<Dim>& region = verdict.unseen[i];
     rows.push_back({number(static_cast<std::int64_t>(i + 1)), number(region.volume), number(region.may_open), size_text<Dim>(region.box),
-                    region.box.empty() ? "–" : place_text<Dim>(region.box.center()), escaped(explained(region.reason))});
+                    region.box.empty() ? "–" : place_text<Dim>(region.box.center()), escaped(explained(region.reason)),
+                    region.open_from ? place_text<Dim>(*region.open_from) : "–"});
   }
   const auto split = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kListed, rows.size()));
   html += table(columns, {rows.begin(), split});

@@ -19,7 +19,10 @@ template <int Dim>
 Json to_json(const Verdict<Dim>& verdict) {
   Json unseen = Json::array();
   for (const UnseenRegion<Dim>& region : verdict.unseen)
-    unseen.push_back({{"volume_m3", region.volume}, {"box", to_json(region.box)}, {"reason", region.reason}});
+    unseen.push_back({{"volume_m3", region.volume},
+                      {"box", to_json(region.box)},
+                      {"reason", region.reason},
+                      {"open_from", region.open_from ? vantage::to_json<Dim>(*region.open_from) : Json(nullptr)}});
   return {{"complete", verdict.complete},
           {"reason", verdict.reason},
           {"seen_fraction", verdict.seen_fraction},

@@ -11,8 +11,8 @@ namespace vantage {
 
 using Json = nlohmann::ordered_json;
 
-/// `{"complete", "reason", "seen_fraction", "seen_fraction_bounds", "unseen": [{"volume_m3", "box", "reason"}]}`. Numbers that are not finite become
-/// null.
+/// `{"complete", "reason", "seen_fraction", "seen_fraction_bounds", "unseen": [{"volume_m3", "box", "reason", "open_from"}]}`; `open_from` is a place
+/// or null. Numbers that are not finite become null.
 template <int Dim>
 [[nodiscard]] Json to_json(const Verdict<Dim>& verdict);
 
