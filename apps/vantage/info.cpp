@@ -10,8 +10,8 @@
 namespace {
 
 constexpr const char* kPurpose =
-    "Says what a file or a run folder holds: point clouds (PLY, PCD, XYZ, CSV), surfaces, exchanged maps, meshes, 2D maps, VTK images,\n"
-    "scan logs, scenarios and runs.\n";
+    "Says what a file or a run folder holds: point clouds (PLY, PCD, E57, LAS, PTX, KITTI .bin, OctoMap .bt, XYZ, CSV), surfaces,\n"
+    "exchanged maps, meshes, 2D maps, VTK images, scan logs, scenarios and runs.\n";
 
 constexpr const char* kExamples =
     "  vantage info runs/town\n"

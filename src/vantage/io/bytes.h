@@ -39,4 +39,30 @@ template <class Number>
   return order == std::endian::native ? value : byte_swapped(value);
 }
 
+/// a * b. Throws bad_input, naming both and `where`, when that does not fit.
+[[nodiscard]] std::size_t checked_product(std::uint64_t a, std::uint64_t b, std::string_view where);
+
+/// The bytes of a file with its name: whatever is read is checked to be there, else bad_input naming `FILE:OFFSET`.
+class FileBytes {
+ public:
+  FileBytes(std::string_view bytes, std::string_view where) : bytes_(bytes), where_(where) {}
+  [[nodiscard]] std::uint64_t size() const { return bytes_.size(); }
+  [[nodiscard]] std::string_view where() const { return where_; }
+  [[nodiscard]] std::string_view all() const { return bytes_; }
+  /// `length` bytes from `offset`; `what` names them when the file is too short.
+  [[nodiscard]] std::string_view part(std::uint64_t offset, std::uint64_t length, std::string_view what) const {
+    if (offset > bytes_.size() || length > bytes_.size() - offset) fail_short(offset, length, what);
+    return bytes_.substr(offset, length);
+  }
+  template <class Number>
+  [[nodiscard]] Number number(std::uint64_t offset, std::string_view what) const {
+    return get<Number>(part(offset, sizeof(Number), what), 0);
+  }
+  [[noreturn]] void fail(std::uint64_t offset, const std::string& message) const;
+
+ private:
+  [[noreturn]] void fail_short(std::uint64_t offset, std::uint64_t length, std::string_view what) const;
+  std::string_view bytes_, where_;
+};
+
 }  // namespace vantage

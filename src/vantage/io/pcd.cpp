@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "vantage/base/error.h"
 #include "vantage/io/bytes.h"
 #include "vantage/io/point_cloud_formats.h"
+#include "vantage/io/records.h"
 #include "vantage/io/text.h"
 #include "vantage/io/text_scanner.h"
 
@@ -27,6 +30,7 @@ struct PcdHeader {
   std::string data;
   std::size_t data_offset = 0, lines = 0;
   std::size_t columns = 0, record = 0;
+  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< Place, then the quaternion w x y z.
 
   [[nodiscard]] const PcdField* find(std::string_view name) const {
     const auto it = std::find_if(fields.begin(), fields.end(), [&](const PcdField& f) { return f.name == name; });
@@ -50,6 +54,15 @@ void each_field(PcdHeader& header, std::string_view rest, Set&& set) {
   for (PcdField& field : header.fields) set(field, take_word(rest));
 }
 
+void parse_viewpoint(std::string_view rest, PcdHeader& header, std::string_view where) {
+  for (double& value : header.viewpoint) {
+    const std::string_view word = take_word(rest);
+    const std::optional<double> number = to_number<double>(word);
+    if (!number || !std::isfinite(*number)) fail(fmt::format("VIEWPOINT {}: must be seven numbers", printable(word)), where, header.lines);
+    value = *number;
+  }
+}
+
 void parse_line(std::string_view key, std::string_view rest, PcdHeader& header, std::string_view where) {
   const std::size_t line = header.lines;
   if (key == "FIELDS") {
@@ -64,7 +77,9 @@ void parse_line(std::string_view key, std::string_view rest, PcdHeader& header, 
     header.points = whole_number(take_word(rest), key, where, line);
   } else if (key == "DATA") {
     header.data = take_word(rest);
-  } else if (key != "VERSION" && key != "WIDTH" && key != "HEIGHT" && key != "VIEWPOINT") {
+  } else if (key == "VIEWPOINT") {
+    parse_viewpoint(rest, header, where);
+  } else if (key != "VERSION" && key != "WIDTH" && key != "HEIGHT") {
     fail(fmt::format("{}: not a header line of PCD", printable(key)), where, line);
   }
 }
@@ -104,13 +119,15 @@ PcdHeader parse_header(std::string_view bytes, std::string_view where) {
   fail("the file ends within the header", where, header.lines);
 }
 
-double number_at(std::string_view bytes, std::size_t offset, const PcdField& field) {
-  if (field.type == 'F') return field.size == 4 ? static_cast<double>(get<float>(bytes, offset)) : get<double>(bytes, offset);
-  std::uint64_t raw = 0;
-  for (std::size_t i = 0; i < field.size; ++i) raw |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(bytes[offset + i])) << (8 * i);
-  if (field.type == 'U') return static_cast<double>(raw);
-  const unsigned shift = static_cast<unsigned>(64 - 8 * field.size);
-  return static_cast<double>(static_cast<std::int64_t>(raw << shift) >> shift);
+NumberType type_of(const PcdField& field) {
+  if (field.type == 'F') return field.size == 4 ? NumberType::float32 : NumberType::float64;
+  const bool plus = field.type == 'U';
+  switch (field.size) {
+    case 1: return plus ? NumberType::uint8 : NumberType::int8;
+    case 2: return plus ? NumberType::uint16 : NumberType::int16;
+    case 4: return plus ? NumberType::uint32 : NumberType::int32;
+    default: return plus ? NumberType::uint64 : NumberType::int64;
+  }
 }
 
 std::vector<Vec<3>> read_ascii(std::string_view bytes, const PcdHeader& header, std::string_view where) {
@@ -140,16 +157,15 @@ std::vector<Vec<3>> read_ascii(std::string_view bytes, const PcdHeader& header, 
 }
 
 /// Points from fixed records (binary) or from one column after the other (binary_compressed).
-std::vector<Vec<3>> read_records(std::string_view data, const PcdHeader& header, bool by_column) {
-  std::vector<Vec<3>> points(header.points, Vec<3>::Zero());
-  for (int a = 0; a < 3; ++a) {
-    const PcdField* field = header.find(std::string_view("xyz").substr(static_cast<std::size_t>(a), 1));
+std::vector<Vec<3>> read_records(std::string_view data, const PcdHeader& header, bool by_column, std::string_view where) {
+  PointColumns columns;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const PcdField* field = header.find(std::string_view("xyz").substr(a, 1));
     if (field == nullptr || field->count == 0) continue;
-    const std::size_t begin = by_column ? field->offset * header.points : field->offset;
-    const std::size_t step = by_column ? field->size * field->count : header.record;
-    for (std::size_t i = 0; i < points.size(); ++i) points[i][a] = number_at(data, begin + i * step, *field);
+    const std::size_t begin = by_column ? checked_product(field->offset, header.points, where) : field->offset;
+    columns[a] = NumberColumn{begin, by_column ? field->size * field->count : header.record, type_of(*field)};
   }
-  return points;
+  return widen_points(data, header.points, columns, where);
 }
 
 /// LZF, as PCL writes it: a control byte below 32 announces literals, else a copy from behind.
@@ -187,7 +203,17 @@ std::vector<Vec<3>> read_compressed(std::string_view bytes, const PcdHeader& hea
   // A compressed byte stands for fewer than 264 bytes, whatever the header says.
   if (unpacked / 264 > packed || header.points > unpacked / header.record || header.points * header.record != unpacked)
     fail(fmt::format("{} unpacked bytes do not hold {} points of {} bytes", unpacked, header.points, header.record), where, header.data_offset);
-  return read_records(decompress(data.substr(8, packed), unpacked, where, header.data_offset + 8), header, true);
+  return read_records(decompress(data.substr(8, packed), unpacked, where, header.data_offset + 8), header, true, where);
+}
+
+/// The place and turn of the sensor, in the frame of the points; what every writer puts there by default says nothing.
+void take_viewpoint(const PcdHeader& header, PointCloud& cloud, std::string_view where) {
+  const auto& v = header.viewpoint;
+  if (v == PcdHeader{}.viewpoint) return;
+  const Eigen::Quaterniond turn(v[3], v[4], v[5], v[6]);
+  require(turn.norm() > 0.0 && std::isfinite(turn.norm()), "VIEWPOINT: the quaternion must not be 0", where);
+  cloud.position = Vec<3>(v[0], v[1], v[2]);
+  cloud.orientation = turn.normalized();
 }
 
 }  // namespace
@@ -197,13 +223,14 @@ PointCloud parse_pcd(std::string_view bytes, std::string_view where) {
   PointCloud cloud;
   cloud.format = "PCD, " + header.data;
   cloud.dim = header.find("z") == nullptr ? 2 : 3;
+  take_viewpoint(header, cloud, where);
   if (header.data == "ascii") {
     cloud.points = read_ascii(bytes, header, where);
   } else if (header.data == "binary") {
     const std::string_view data = bytes.substr(header.data_offset);
     if (header.points > data.size() / header.record)
       fail(fmt::format("{} points of {} bytes exceed the file", header.points, header.record), where, header.data_offset);
-    cloud.points = read_records(data, header, false);
+    cloud.points = read_records(data, header, false, where);
   } else if (header.data == "binary_compressed") {
     cloud.points = read_compressed(bytes, header, where);
   } else {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/geometry/vec.h"
@@ -31,7 +32,14 @@ struct MeasuredScan {
   std::optional<RayTable> rays;                                     ///< If the file keeps the order of the rays.
 };
 
-/// All scans of a point cloud file of any format (point_cloud_file.h). Throws io, or bad_input naming `FILE:OFFSET` (text: `FILE:LINE`).
+/// All scans of a point cloud file of any format of docs/12-files.md; an E57 may hold none. Throws io, or bad_input naming `FILE:OFFSET` (text:
+/// `FILE:LINE`).
 [[nodiscard]] std::vector<MeasuredScan> read_scan_file(const std::filesystem::path& path);
+/// The same from memory; `where` names it in messages, and its ending tells what the content does not.
+[[nodiscard]] std::vector<MeasuredScan> parse_scan_file(std::string_view bytes, std::string_view where);
+
+/// "PLY", "PCD", "LAS", "E57", "PTX", "OctoMap", "KITTI" or "text": what a file is by its first bytes (4096 do), else by its name; none: neither
+/// tells of points.
+[[nodiscard]] std::optional<std::string_view> scan_format(std::string_view bytes, std::string_view where);
 
 }  // namespace vantage

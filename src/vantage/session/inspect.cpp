@@ -11,7 +11,7 @@
 #include "vantage/io/bytes.h"
 #include "vantage/io/patch_file.h"
 #include "vantage/io/ply_file.h"
-#include "vantage/io/point_cloud_file.h"
+#include "vantage/io/scan_file.h"
 #include "vantage/io/vti.h"
 #include "vantage/session/exchanged.h"
 #include "vantage/session/run_folder.h"
@@ -30,13 +30,41 @@ Json bounds_json(const Box<Dim>& box) {
   return Json::array({to_json<Dim>(box.low), to_json<Dim>(box.high)});
 }
 
-Json inspect_points(const fs::path& path) {
-  const PointCloud cloud = read_points(path);
+/// What a scan holds beside its format.
+Json scan_json(const MeasuredScan& scan) {
   Box<3> box;
-  for (const Vec<3>& p : cloud.points)
-    if (p.allFinite()) box.extend(p);
-  return {{"kind", "point cloud"},         {"format", cloud.format},         {"dim", cloud.dim},
-          {"points", cloud.points.size()}, {"not_finite", cloud.not_finite}, {"bounds", bounds_json(box)}};
+  for (const Vec<3>& p : scan.points) box.extend(p);
+  Json json = {{"points", scan.points.size()}, {"not_finite", scan.not_finite}, {"bounds", bounds_json(box)}};
+  if (scan.position) json["position"] = to_json<3>(*scan.position);
+  if (scan.rays) {
+    const auto count = [&](std::int32_t what) { return std::count(scan.rays->point.begin(), scan.rays->point.end(), what); };
+    json["rays"] = {
+        {"columns", scan.rays->columns}, {"rows", scan.rays->rows}, {"no_return", count(RayTable::kNoReturn)}, {"no_data", count(RayTable::kNoData)}};
+  }
+  return json;
+}
+
+Json inspect_points(const fs::path& path) {
+  const std::vector<MeasuredScan> scans = read_scan_file(path);
+  Json json = {{"kind", "point cloud"}};
+  if (scans.size() == 1) {
+    json.update({{"format", scans[0].format}, {"dim", scans[0].dim}});
+    json.update(scan_json(scans[0]));
+    return json;
+  }
+  Box<3> box;
+  std::size_t points = 0;
+  std::int64_t not_finite = 0;
+  Json each = Json::array();
+  for (const MeasuredScan& scan : scans) {
+    each.push_back(scan_json(scan));
+    for (const Vec<3>& p : scan.points) box.extend(p);
+    points += scan.points.size();
+    not_finite += scan.not_finite;
+  }
+  const std::string format = scans.empty() ? "E57" : scans[0].format;
+  json.update({{"format", format}, {"dim", 3}, {"points", points}, {"not_finite", not_finite}, {"bounds", bounds_json(box)}, {"scans", each}});
+  return json;
 }
 
 template <int Dim>
@@ -129,7 +157,7 @@ Json inspect_ply(const fs::path& path) {
 
 std::string first_bytes(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(64, '\0');
+  std::string bytes(4096, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;
@@ -148,8 +176,7 @@ Json inspect(const fs::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".vti") return inspect_image(path);
   if (extension == ".toml") return inspect_scenario(path);
-  for (const char* cloud : {".pcd", ".xyz", ".csv", ".txt", ".pts", ".asc"})
-    if (extension == cloud) return inspect_points(path);
+  if (scan_format(head, path.string())) return inspect_points(path);
   return inspect_scene(path);
 }
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// fuzz_seeds FOLDER: writes FOLDER/ENDING/NAME for every sample scan.
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "vantage/io/atomic_file.h"
+#include "vantage/io/sample_scans.h"
+
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
+  try {
+    for (const auto& [name, bytes] : vantage::samples::all()) {
+      const std::filesystem::path folder = std::filesystem::path(arguments[1]) / name.substr(name.rfind('.') + 1);
+      std::filesystem::create_directories(folder);
+      vantage::write_file(folder / name, bytes);
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "fuzz_seeds: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
