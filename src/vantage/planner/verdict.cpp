@@ -180,7 +180,7 @@ Verdict<Dim> assess(const BeliefView<Dim>& view, std::span<const BoundaryFace<Di
   add_faces(view, faces, reachable, regions, options, parts);
   if (options.glimpsed != nullptr)
     options.glimpsed->for_each(view.state, [&](std::size_t node) {
-      const bool clear = static_cast<double>(view.known_distance[node]) > h, deep = static_cast<double>(view.psi[node]) < -2.0 * h;
+      const bool clear = static_cast<double>(view.known_distance[node]) > 1.5 * h, deep = static_cast<double>(view.psi[node]) < -2.0 * h;
       if (clear && deep) parts[static_cast<std::size_t>(regions.region_of(node))].glimpsed += 1.0;
     });
 
