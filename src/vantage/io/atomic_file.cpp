@@ -65,26 +65,32 @@ void sync_folder(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+FileBuffer read_buffer(const std::filesystem::path& path) {
   const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) fail(path, "cannot open");
   struct stat status{};
   if (::fstat(file.get(), &status) != 0) fail(path, "cannot read");
   if (S_ISDIR(status.st_mode)) throw Error(ErrorCode::io, "is a folder, not a file", path.string());
   require_memory(static_cast<double>(status.st_size), 1.0, path.string());
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
-  std::size_t have = 0;
+  FileBuffer buffer;
+  std::size_t room = static_cast<std::size_t>(status.st_size) + 1;  // One more, to meet the end without growing.
+  buffer.bytes = std::make_unique_for_overwrite<char[]>(room);
   for (;;) {  // Until the end, not only the stated size: pipes state none.
-    if (have == bytes.size()) bytes.resize(have + 65536);
-    const ssize_t n = ::read(file.get(), bytes.data() + have, bytes.size() - have);
+    if (buffer.size == room) {
+      room = 2 * room + 65536;
+      auto wider = std::make_unique_for_overwrite<char[]>(room);
+      std::memcpy(wider.get(), buffer.bytes.get(), buffer.size);
+      buffer.bytes = std::move(wider);
+    }
+    const ssize_t n = ::read(file.get(), buffer.bytes.get() + buffer.size, room - buffer.size);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail(path, "cannot read");
-    if (n == 0) break;
-    have += static_cast<std::size_t>(n);
+    if (n == 0) return buffer;
+    buffer.size += static_cast<std::size_t>(n);
   }
-  bytes.resize(have);
-  return bytes;
 }
+
+std::string read_file(const std::filesystem::path& path) { return std::string(read_buffer(path).view()); }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
   const std::string name = unused_name(path);
