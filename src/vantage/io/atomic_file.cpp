@@ -2,11 +2,13 @@
 #include "vantage/io/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -57,6 +59,14 @@ std::string unused_name(const std::filesystem::path& path) {
   return path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(++calls) + ".part";
 }
 
+/// Fewer page faults for what lies in whole large pages; systems without them ignore it.
+void prefer_large_pages(char* bytes, std::size_t size) {
+  constexpr std::uintptr_t kLarge = std::uintptr_t{1} << 21;
+  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(bytes) + kLarge - 1) & ~(kLarge - 1);
+  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(bytes) + size) & ~(kLarge - 1);
+  if (begin < end) (void)::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+}
+
 void sync_folder(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   const File opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -75,6 +85,7 @@ FileBuffer read_buffer(const std::filesystem::path& path) {
   FileBuffer buffer;
   std::size_t room = static_cast<std::size_t>(status.st_size) + 1;  // One more, to meet the end without growing.
   buffer.bytes = std::make_unique_for_overwrite<char[]>(room);
+  prefer_large_pages(buffer.bytes.get(), room);
   for (;;) {  // Until the end, not only the stated size: pipes state none.
     if (buffer.size == room) {
       room = 2 * room + 65536;
