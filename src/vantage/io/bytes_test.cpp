@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/base/error.h"
+
 namespace vantage {
 namespace {
 
@@ -19,6 +21,22 @@ TEST(Bytes, NumbersComeBackInBothOrders) {
   EXPECT_EQ(get<std::uint32_t>(bytes, 0), 0x01020304U);
   EXPECT_EQ(get<std::uint32_t>(bytes, 0, std::endian::big), 0x04030201U);
   EXPECT_EQ(get<double>(bytes, 4), -0.1);
+}
+
+TEST(Bytes, ReadsAreCheckedAgainstTheBytesThere) {
+  const FileBytes file("\1\2\3\4\5", "a.bin");
+  EXPECT_EQ(file.number<std::uint32_t>(1, "a number"), 0x05040302U);
+  EXPECT_EQ(file.part(5, 0, "nothing"), "");
+  EXPECT_THROW((void)file.number<std::uint32_t>(2, "a number"), Error);
+  EXPECT_THROW((void)file.part(1, ~std::uint64_t{0}, "a part"), Error);
+  EXPECT_THROW((void)file.part(~std::uint64_t{0}, 1, "a part"), Error);
+}
+
+TEST(Bytes, ProductsOfSizesAreChecked) {
+  EXPECT_EQ(checked_product(1U << 20, 1U << 20, ""), std::size_t{1} << 40);
+  EXPECT_EQ(checked_product(~std::uint64_t{0}, 1, ""), ~std::size_t{0});
+  EXPECT_EQ(checked_product(~std::uint64_t{0}, 0, ""), 0U);
+  EXPECT_THROW((void)checked_product(std::uint64_t{1} << 33, std::uint64_t{1} << 31, "a.ptx"), Error);
 }
 
 }  // namespace

@@ -74,10 +74,11 @@ std::vector<MeasuredScan> parse_las(FileBytes file) {
   MeasuredScan scan;
   scan.name = file.where();
   scan.format = fmt::format("LAS 1.{}, point format {}", header.minor, header.format);
-  const PointColumns columns{{NumberColumn{0, header.record, NumberType::int32}, NumberColumn{4, header.record, NumberType::int32},
-                              NumberColumn{8, header.record, NumberType::int32}}};
+  PointColumns columns;
+  for (int a = 0; a < 3; ++a)
+    columns[static_cast<std::size_t>(a)] =
+        NumberColumn{static_cast<std::size_t>(4 * a), header.record, NumberType::int32, header.scale[a], header.offset[a]};
   scan.points = widen_points(data, header.points, columns, file.where());
-  for (Vec<3>& p : scan.points) p = p.cwiseProduct(header.scale) + header.offset;
   return {std::move(scan)};
 }
 

@@ -99,8 +99,8 @@ OccupancyTree parse_occupancy_tree(FileBytes file) {
 }
 
 OccupancyTree read_occupancy_tree(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  return parse_occupancy_tree(FileBytes(bytes, path.string()));
+  const FileBuffer buffer = read_buffer(path);
+  return parse_occupancy_tree(FileBytes(buffer.view(), path.string()));
 }
 
 std::vector<MeasuredScan> parse_octomap(FileBytes file) {

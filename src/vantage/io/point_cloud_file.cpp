@@ -82,19 +82,6 @@ std::vector<Vec<3>> points_of_columns(std::string_view bytes, std::string_view w
   return points;
 }
 
-PointCloud parse_ply_points(std::string_view bytes, std::string_view where) {
-  std::size_t offset = 0;
-  const Ply ply = parse_ply_header(bytes, where, offset);
-  const Ply::Element& vertex = vertices(ply, where);
-  PointCloud cloud;
-  cloud.format = "PLY, " + ply.format;
-  const bool plane = std::find(ply.comments.begin(), ply.comments.end(), kPlaneComment) != ply.comments.end();
-  cloud.dim = plane || vertex.find("z") == nullptr ? 2 : 3;
-  std::optional<std::vector<Vec<3>>> points = fixed_records(ply, bytes.substr(offset), where);
-  cloud.points = points ? std::move(*points) : points_of_columns(bytes, where);
-  return cloud;
-}
-
 /// Of a format that has scans: their points, one scan after the other.
 PointCloud joined(std::vector<MeasuredScan> scans, std::string_view format) {
   PointCloud cloud;
@@ -120,6 +107,19 @@ std::string coordinates(std::span<const Vec<Dim>> points) {
 
 }  // namespace
 
+PointCloud parse_ply_points(std::string_view bytes, std::string_view where) {
+  std::size_t offset = 0;
+  const Ply ply = parse_ply_header(bytes, where, offset);
+  const Ply::Element& vertex = vertices(ply, where);
+  PointCloud cloud;
+  cloud.format = "PLY, " + ply.format;
+  const bool plane = std::find(ply.comments.begin(), ply.comments.end(), kPlaneComment) != ply.comments.end();
+  cloud.dim = plane || vertex.find("z") == nullptr ? 2 : 3;
+  std::optional<std::vector<Vec<3>>> points = fixed_records(ply, bytes.substr(offset), where);
+  cloud.points = points ? std::move(*points) : points_of_columns(bytes, where);
+  return cloud;
+}
+
 PointCloud parse_points(std::string_view bytes, std::string_view where) {
   require(!bytes.empty(), "the file is empty", where);
   const std::optional<std::string_view> format = scan_format(bytes, where);
@@ -129,7 +129,7 @@ PointCloud parse_points(std::string_view bytes, std::string_view where) {
   return cloud;
 }
 
-PointCloud read_points(const std::filesystem::path& path) { return parse_points(read_file(path), path.string()); }
+PointCloud read_points(const std::filesystem::path& path) { return parse_points(read_buffer(path).view(), path.string()); }
 
 template <int Dim>
 std::string points_as_ply(std::span<const Vec<Dim>> points) {

@@ -3,11 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "vantage/base/error.h"
 #include "vantage/io/bytes.h"
 
 namespace vantage {
 namespace {
+
+constexpr std::size_t kBlock = 1024;  // Points whose axes are filled one after the other while they are in the cache.
 
 /// Calls `work` with a zero of the type.
 template <class Work>
@@ -37,10 +42,21 @@ void check_room(std::string_view bytes, std::uint64_t count, const NumberColumn&
 /// Three columns of one type and stride, in one pass.
 template <class Number>
 void fill_points(std::string_view bytes, const PointColumns& columns, std::endian order, std::vector<Vec<3>>& points, std::size_t count) {
-  const std::size_t x = columns[0]->offset, y = columns[1]->offset, z = columns[2]->offset, stride = columns[0]->stride;
-  for (std::size_t i = 0, at = 0; i < count; ++i, at += stride)
-    points.emplace_back(static_cast<double>(get<Number>(bytes, at + x, order)), static_cast<double>(get<Number>(bytes, at + y, order)),
-                        static_cast<double>(get<Number>(bytes, at + z, order)));
+  const NumberColumn x = *columns[0], y = *columns[1], z = *columns[2];
+  const auto at = [&](std::size_t i, const NumberColumn& column) {
+    return static_cast<double>(get<Number>(bytes, i * x.stride + column.offset, order)) * column.scale + column.shift;
+  };
+  for (std::size_t i = 0; i < count; ++i) points.emplace_back(at(i, x), at(i, y), at(i, z));
+}
+
+/// Points [first, second) of one axis.
+template <class Coordinate>
+void fill_axis(std::string_view bytes, const NumberColumn& column, std::endian order, std::pair<std::size_t, std::size_t> range,
+               Coordinate&& coordinate) {
+  with_type(column.type, [&]<class Number>(Number) {
+    for (std::size_t i = range.first; i < range.second; ++i)
+      coordinate(i) = static_cast<double>(get<Number>(bytes, column.offset + i * column.stride, order)) * column.scale + column.shift;
+  });
 }
 
 bool alike(const PointColumns& columns) {
@@ -67,14 +83,12 @@ std::vector<Vec<3>> widen_points(std::string_view bytes, std::uint64_t count, co
     with_type(columns[0]->type, [&]<class Number>(Number) { fill_points<Number>(bytes, columns, order, points, count); });
     return points;
   }
-  points.assign(count, Vec<3>::Zero());
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (!columns[a]) continue;
-    const auto [offset, stride, type] = *columns[a];
-    with_type(type, [&, offset = offset, stride = stride]<class Number>(Number) {
-      for (std::size_t i = 0; i < count; ++i)
-        points[i][static_cast<Eigen::Index>(a)] = static_cast<double>(get<Number>(bytes, offset + i * stride, order));
-    });
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t end = std::min<std::size_t>(count, begin + kBlock);
+    points.resize(end, Vec<3>::Zero());
+    for (std::size_t a = 0; a < 3; ++a)
+      if (columns[a])
+        fill_axis(bytes, *columns[a], order, {begin, end}, [&](std::size_t i) -> double& { return points[i][static_cast<Eigen::Index>(a)]; });
   }
   return points;
 }

@@ -15,10 +15,11 @@ enum class NumberType { int8, uint8, int16, uint16, int32, uint32, int64, uint64
 
 [[nodiscard]] std::size_t size_of(NumberType type);
 
-/// The numbers of one axis: the first at `offset`, the next `stride` bytes on.
+/// The numbers of one axis: the first at `offset`, the next `stride` bytes on; a coordinate is number * scale + shift.
 struct NumberColumn {
   std::size_t offset = 0, stride = 0;
   NumberType type = NumberType::float32;
+  double scale = 1.0, shift = 0.0;
 };
 
 /// x, y and z of points; an axis without a column is zero.

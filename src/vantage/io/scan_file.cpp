@@ -8,7 +8,7 @@
 
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
-#include "vantage/io/point_cloud_file.h"
+#include "vantage/io/point_cloud_formats.h"
 #include "vantage/io/scan_formats.h"
 #include "vantage/io/text_scanner.h"
 
@@ -62,6 +62,10 @@ std::vector<MeasuredScan> scan_of_cloud(PointCloud cloud) {
 }
 
 void drop_not_finite(MeasuredScan& scan) {
+  if (scan.points.empty()) return;
+  // A difference with itself is 0 but for NaN and the infinities: one fast pass tells that nothing is to be done.
+  const Eigen::Map<const Eigen::ArrayXd> numbers(scan.points.front().data(), static_cast<Eigen::Index>(3 * scan.points.size()));
+  if ((numbers - numbers).sum() == 0.0) return;
   const auto end = std::remove_if(scan.points.begin(), scan.points.end(), [](const Vec<3>& p) { return !p.allFinite(); });
   scan.not_finite += scan.points.end() - end;
   scan.points.erase(end, scan.points.end());
@@ -80,7 +84,7 @@ std::vector<MeasuredScan> parse_as(std::string_view format, std::string_view byt
   if (format == "PTX") return parse_ptx(bytes, where);
   if (format == "OctoMap") return parse_octomap(file);
   if (format == "KITTI") return parse_kitti(file);
-  return scan_of_cloud(parse_points(bytes, where));
+  return scan_of_cloud(format == "PLY" ? parse_ply_points(bytes, where) : format == "PCD" ? parse_pcd(bytes, where) : parse_xyz(bytes, where));
 }
 
 }  // namespace
@@ -101,6 +105,6 @@ std::vector<MeasuredScan> parse_scan_file(std::string_view bytes, std::string_vi
   return scans;
 }
 
-std::vector<MeasuredScan> read_scan_file(const std::filesystem::path& path) { return parse_scan_file(read_file(path), path.string()); }
+std::vector<MeasuredScan> read_scan_file(const std::filesystem::path& path) { return parse_scan_file(read_buffer(path).view(), path.string()); }
 
 }  // namespace vantage
