@@ -256,7 +256,7 @@ class Walk {
 
   /// CPU seconds of the stages: surface, visibility, distance, belief.
   std::array<double, 4> step(const Vec<3>& place) {
-    const Scan<3> scan = lidar_.scan(place, static_cast<std::int64_t>(visited_.size()));
+    const Scan<3> scan = lidar_.scan(place, static_cast<int>(visited_.size()));
     visited_.push_back(place);
     Box<3> reach;
     reach.extend(scan.origin);
