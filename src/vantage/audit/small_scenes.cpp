@@ -225,11 +225,12 @@ class Builder {
     rooms_.push_back({middle, middle});
   }
 
-  /// A place in one of the rooms with a cell more than the clearance round it, or with less if there is none; nothing there is solid.
+  /// A place in one of the rooms with a cell more than the clearance round it, or with less, down to the clearance, if there is none; nothing there is
+  /// solid.
   Vec<Dim> start(const Mesh<Dim>& mesh, const Placement<Dim>& place) {
     const RayCaster<Dim> caster(mesh);
     double room = kClearance + kCell;
-    for (int attempt = 0;; ++attempt, room *= 0.995) {
+    for (int attempt = 0;; ++attempt, room = std::max(0.995 * room, attempt < 20000 ? 1.001 * kClearance : 0.0)) {
       const Box<Dim>& box = rooms_[random_.below(rooms_.size())];
       Vec<Dim> at;
       for (int a = 0; a < Dim; ++a) at[a] = random_.uniform(box.low[a], box.high[a]);
