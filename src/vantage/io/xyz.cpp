@@ -76,7 +76,8 @@ Vec<3> point_of(const std::vector<std::string_view>& words, const Columns& colum
 }  // namespace
 
 PointCloud parse_xyz(std::string_view bytes, std::string_view where) {
-  require(bytes.substr(0, 4096).find('\0') == std::string_view::npos, "not a point cloud this program reads (PLY, PCD, E57, LAS, PTX, KITTI .bin, OctoMap .bt, XYZ, CSV)", where);
+  require(bytes.substr(0, 4096).find('\0') == std::string_view::npos,
+          "not a point cloud this program reads (PLY, PCD, E57, LAS, PTX, KITTI .bin, OctoMap .bt, XYZ, CSV)", where);
   PointCloud cloud;
   cloud.format = "text";
   std::optional<Columns> columns;
