@@ -178,7 +178,8 @@ class RayCells {
     const Vec<2> size = cells_.size() + Vec<2>::Ones();
     const double most = std::min(static_cast<double>(kRaysPerRecord) * static_cast<double>(records.count()),
                                  static_cast<double>(std::numeric_limits<std::int32_t>::max()));
-    if (!(size.prod() <= most)) return;
+    // The table's indices have 31 bits.
+    if (!(size.prod() <= most) || records.count() > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max())) return;
     table_ = RayTable{static_cast<std::int32_t>(size[1]), static_cast<std::int32_t>(size[0]), {}};
     table_->point.assign(static_cast<std::size_t>(size.prod()), RayTable::kNoData);
   }

@@ -52,7 +52,7 @@ LasHeader parse_header(const FileBytes& file) {
   header.minor = file.number<std::uint8_t>(25, "the header");
   if (major != 1 || header.minor > 4) file.fail(24, fmt::format("LAS {}.{}: must be 1.0 to 1.4", major, header.minor));
   const auto format = file.number<std::uint8_t>(104, "the header");
-  if (format & 0xc0)
+  if ((format & 0xc0) != 0)
     file.fail(104, "compressed (LAZ): decompress it first, by `vantage convert` of the Python package or another tool; this program reads LAS");
   header.format = format;
   header.points_begin = file.number<std::uint32_t>(96, "the header");
