@@ -72,6 +72,7 @@ struct Explorer<Dim>::Impl {
   std::vector<Snapshot<Dim>> snapshots;
   std::vector<Vec<Dim>> path, visited;
   Verdict<Dim> verdict;
+  StationRule<Dim> rule;
   bool finished = false;
 
   static Grid<Dim> lattice(const Box<Dim>& domain, const Vec<Dim>& start, const ExploreOptions& options) {
@@ -134,7 +135,10 @@ struct Explorer<Dim>::Impl {
       const std::vector<Vec<Dim>> walls = options.fill ? fill_between_rays(scan, 0.5 * window.spacing) : std::vector<Vec<Dim>>{};
       belief.unite(seen, distance_to_patches<Dim>(patches, near, belief.known_cap()), walls);
     });
-    if (!planner) planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
+    if (!planner) {
+      planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
+      planner->set_rule(rule);
+    }
     record.seen_volume = belief.seen_volume();
     record.new_volume = std::max(0.0, record.seen_volume - seen_before);
     decision = timed("planner", [&] { return planner->choose(belief.view(), scan.origin, record.new_volume); });  // arg max E, Eq. (1)
@@ -230,6 +234,24 @@ template <int Dim>
   requires SpatialDim<Dim>
 const StepRecord<Dim>& Explorer<Dim>::step() {
   return impl_->step();
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+void Explorer<Dim>::set_rule(StationRule<Dim> rule) {
+  impl_->rule = std::move(rule);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::vector<RankedPlace<Dim>> Explorer<Dim>::rank(const RankRequest<Dim>& request) const {
+  return impl_->planner->rank(impl_->belief.view(), request);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+BeliefView<Dim> Explorer<Dim>::view() const {
+  return impl_->belief.view();
 }
 
 template <int Dim>

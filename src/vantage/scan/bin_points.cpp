@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/scan/bin_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "vantage/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kSteps[] = {0.1, 0.125, 0.15, 0.18, 0.2, 0.225, 0.25, 0.3, 0.36, 0.4, 0.45, 0.5, 0.6, 0.75, 0.9,
+                             1.0, 1.25,  1.35, 1.5,  1.8, 2.0,   2.5,  3.0, 3.6,  4.0, 5.0,  6.0, 7.5, 10.0};  // [deg]
+constexpr int kReach = 2;         // Of the hits that close a gap between them [rays at the horizon].
+constexpr double kWideGap = 15;   // Azimuths without hits that lie outside of the field of view [deg].
+constexpr int kFewHits = 3;       // An elevation with fewer does not widen the field of view.
+constexpr float kEmpty = -1.0F;   // While it is not decided.
+
+/// Direction and distance of a point.
+struct Polar {
+  double azimuth, elevation, range;
+};
+
+template <int Dim>
+Polar polar(const Vec<Dim>& p) {
+  const double flat = p.template head<2>().norm();
+  double up = 0.0;
+  for (int a = 2; a < Dim; ++a) up = p[a];
+  return {angle_of(p[1], p[0]), angle_of(up, flat), p.norm()};
+}
+
+/// The image's rays, turned so that the points lie in the middle of theirs.
+template <int Dim>
+struct Image {
+  ScanPattern pattern;
+  double turn = 0.0;  ///< Of the image about the third axis [rad].
+  int columns = 0, rows = 0;
+
+  Image(std::span<const Polar> points, double step) {
+    pattern.step = step;
+    columns = pattern.columns();
+    double highest = 0.0, sine = 0.0, cosine = 0.0, level = 0.0;
+    for (const Polar& p : points) {
+      highest = std::max(highest, std::abs(p.elevation));
+      const auto [s, c] = sin_cos(p.azimuth * columns);
+      sine += s;
+      cosine += c;
+      level += sin_cos(p.elevation * (2.0 * kPi / step))[1];
+    }
+    turn = angle_of(sine, cosine) / columns;
+    // Rays on the horizon, or half a step off it.
+    const int odd = level >= 0.0 ? 1 : 0;
+    const auto most = static_cast<int>(std::floor(kPi / step + 1e-6)) + 1;
+    const auto least = static_cast<int>(std::ceil(radians(1.0) / step)) + 1;
+    rows = 2 * static_cast<int>(std::ceil(highest / step - 0.5 * (1 - odd))) + odd;
+    rows = std::max(std::min(rows, most), least);
+    if (rows % 2 != odd) rows += rows < most ? 1 : -1;
+    pattern.vertical_fov = std::min((rows - 1) * step, kPi);
+    rows = pattern.template rows<Dim>();
+  }
+  [[nodiscard]] int column(const Polar& p) const {
+    const auto c = static_cast<int>(std::floor((p.azimuth - turn + kPi) * columns / (2.0 * kPi) + 0.5));
+    return ((c % columns) + columns) % columns;
+  }
+  [[nodiscard]] int row(const Polar& p) const {
+    return std::clamp(static_cast<int>(std::floor(p.elevation / pattern.step + 0.5 * (rows - 1) + 0.5)), 0, rows - 1);
+  }
+  [[nodiscard]] std::size_t index(int c, int r) const { return static_cast<std::size_t>(((c % columns) + columns) % columns * rows + r); }
+};
+
+template <int Dim>
+std::vector<Polar> directions_of(std::span<const Vec<Dim>> points) {
+  std::vector<Polar> all;
+  all.reserve(points.size());
+  for (const Vec<Dim>& p : points) all.push_back(polar<Dim>(p));
+  return all;
+}
+
+/// Whether more than half of the rays with a hit have at most one neighbour without.
+template <int Dim>
+bool is_full(std::span<const Polar> points, double step) {
+  const Image<Dim> image(points, step);
+  std::vector<std::uint8_t> hit(static_cast<std::size_t>(image.columns) * static_cast<std::size_t>(image.rows));
+  for (const Polar& p : points) hit[image.index(image.column(p), image.row(p))] = 1;
+  std::int64_t hits = 0, full = 0;
+  for (int c = 0; c < image.columns; ++c)
+    for (int r = 0; r < image.rows; ++r) {
+      if (hit[image.index(c, r)] == 0) continue;
+      int empty = 0;
+      for (int dc = -1; dc <= 1; ++dc)
+        for (int dr = -(Dim - 2); dr <= Dim - 2; ++dr)
+          empty += r + dr >= 0 && r + dr < image.rows && hit[image.index(c + dc, r + dr)] == 0 ? 1 : 0;
+      ++hits;
+      full += empty <= Dim - 2 ? 1 : 0;
+    }
+  return 2 * full > hits;
+}
+
+template <int Dim>
+double estimate(std::span<const Polar> points) {
+  for (const double step : kSteps)
+    if (is_full<Dim>(points, radians(step))) return radians(step);
+  return radians(kSteps[std::size(kSteps) - 1]);
+}
+
+/// Fills the image from the points.
+template <int Dim>
+class Binner {
+ public:
+  Binner(std::span<const Polar> points, const BinOptions& options, double step)
+      : points_(points), options_(options), image_(points, step), ranges_(static_cast<std::size_t>(image_.columns * image_.rows), kEmpty) {
+    for (const Polar& p : points) {
+      float& range = ranges_[image_.index(image_.column(p), image_.row(p))];
+      const auto here = static_cast<float>(p.range);
+      range = range == kEmpty ? here : std::min(range, here);
+    }
+    report_.step = step;
+  }
+
+  void run(const std::optional<RayOrder>& order) {
+    report_.hit = std::count_if(ranges_.begin(), ranges_.end(), [](float r) { return r != kEmpty; });
+    find_view();
+    if (order) take_order(*order);
+    close_gaps();
+    for (int c = 0; c < image_.columns; ++c)
+      for (int r = 0; r < image_.rows; ++r) decide(c, r, order.has_value());
+  }
+
+  [[nodiscard]] const Image<Dim>& image() const { return image_; }
+  std::vector<float>& ranges() { return ranges_; }
+  [[nodiscard]] const BinReport& report() const { return report_; }
+
+ private:
+  /// Rows and columns that hits cover.
+  void find_view() {
+    std::vector<int> in_row(static_cast<std::size_t>(image_.rows)), in_column(static_cast<std::size_t>(image_.columns));
+    for (int c = 0; c < image_.columns; ++c)
+      for (int r = 0; r < image_.rows; ++r)
+        if (ranges_[image_.index(c, r)] != kEmpty) ++in_row[static_cast<std::size_t>(r)], ++in_column[static_cast<std::size_t>(c)];
+    low_ = image_.rows;
+    high_ = -1;
+    for (int r = 0; r < image_.rows; ++r)
+      if (in_row[static_cast<std::size_t>(r)] >= (Dim == 2 ? 1 : kFewHits)) low_ = std::min(low_, r), high_ = r;
+    report_.lowest = (Dim - 2) * image_.pattern.elevation(std::min(low_, image_.rows - 1));
+    report_.highest = (Dim - 2) * image_.pattern.elevation(std::max(high_, 0));
+    covered_.assign(in_column.size(), 1);
+    const auto wide = static_cast<int>(radians(kWideGap) / image_.pattern.step);
+    for (int c = 0; c < image_.columns; ++c) {
+      int gap = 0;
+      while (gap < image_.columns && in_column[static_cast<std::size_t>((c + gap) % image_.columns)] == 0) ++gap;
+      if (gap > std::max(wide, 3))
+        for (int k = 0; k < gap; ++k) covered_[static_cast<std::size_t>((c + k) % image_.columns)] = 0;
+      c += gap;
+    }
+  }
+
+  /// The rays that came back empty: where the hits of their column and of their row lie.
+  void take_order(const RayOrder& order) {
+    struct Mean {
+      double sine = 0.0, cosine = 0.0;
+      int count = 0;
+      void add(double angle) {
+        const auto [s, c] = sin_cos(angle);
+        sine += s, cosine += c, ++count;
+      }
+    };
+    std::vector<Mean> azimuth(static_cast<std::size_t>(order.columns)), elevation(static_cast<std::size_t>(order.rows));
+    const auto at = [&](int c, int r) { return order.point[static_cast<std::size_t>(c) * static_cast<std::size_t>(order.rows) + static_cast<std::size_t>(r)]; };
+    const auto valid = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < points_.size(); };
+    for (int c = 0; c < order.columns; ++c)
+      for (int r = 0; r < order.rows; ++r)
+        if (const std::int32_t i = at(c, r); valid(i)) {
+          azimuth[static_cast<std::size_t>(c)].add(points_[static_cast<std::size_t>(i)].azimuth);
+          elevation[static_cast<std::size_t>(r)].add(points_[static_cast<std::size_t>(i)].elevation);
+        }
+    for (int c = 0; c < order.columns; ++c)
+      for (int r = 0; r < order.rows; ++r) {
+        const Mean &a = azimuth[static_cast<std::size_t>(c)], &e = elevation[static_cast<std::size_t>(r)];
+        if (at(c, r) != -1 || a.count == 0 || e.count == 0) continue;
+        const Polar ray{angle_of(a.sine, a.cosine), angle_of(e.sine, e.cosine), 0.0};
+        float& range = ranges_[image_.index(image_.column(ray), image_.row(ray))];
+        if (range == kEmpty) range = kNoReturn;
+      }
+  }
+
+  /// Range between two hits, one on each side: of the plane through them if they are alike, else of the nearer; kEmpty if one is missing.
+  [[nodiscard]] float between(int c, int r, int dc, int dr, int reach) const {
+    const auto side = [&](int sign, int& steps) {
+      for (steps = 1; steps <= reach; ++steps) {
+        const int row = r + sign * steps * dr;
+        if (row < 0 || row >= image_.rows) return kEmpty;
+        const float range = ranges_[image_.index(c + sign * steps * dc, row)];
+        if (range != kEmpty) return range;
+      }
+      return kEmpty;
+    };
+    int left = 0, right = 0;
+    const float a = side(-1, left), b = side(1, right);
+    if (!(std::isfinite(a) && std::isfinite(b)) || a == kEmpty || b == kEmpty || left + right > reach + 1) return kEmpty;
+    const float least = std::min(a, b), most = std::max(a, b);
+    if (most > 1.2F * least) return least;
+    const auto w = static_cast<float>(left) / static_cast<float>(left + right);
+    return 1.0F / ((1.0F - w) / a + w / b);
+  }
+
+  void close_gaps() {
+    std::vector<float> closed = ranges_;
+    for (int r = 0; r < image_.rows; ++r) {
+      const double cosine = sin_cos((Dim - 2) * image_.pattern.elevation(r))[1];
+      const auto along = static_cast<int>(std::min((kReach + 1) / std::max(cosine, 1e-3), image_.columns / 4.0));
+      for (int c = 0; c < image_.columns; ++c) {
+        float& range = closed[image_.index(c, r)];
+        if (range != kEmpty) continue;
+        const float across = between(c, r, 0, 1, kReach + 1), around = between(c, r, 1, 0, along);
+        range = across == kEmpty ? around : around == kEmpty ? across : std::min(across, around);
+        report_.between += range != kEmpty ? 1 : 0;
+      }
+    }
+    ranges_ = std::move(closed);
+  }
+
+  void decide(int c, int r, bool ordered) {
+    float& range = ranges_[image_.index(c, r)];
+    if (range != kEmpty) {
+      report_.empty += range == kNoReturn ? 1 : 0;
+      return;
+    }
+    const bool inside = r >= low_ && r <= high_ && covered_[static_cast<std::size_t>(c)] != 0;
+    ++(inside ? report_.empty : report_.outside);
+    range = inside && options_.no_return_free && !ordered ? kNoReturn : kNoData;
+  }
+
+  std::span<const Polar> points_;
+  const BinOptions& options_;
+  Image<Dim> image_;
+  std::vector<float> ranges_;
+  std::vector<std::uint8_t> covered_;
+  int low_ = 0, high_ = 0;
+  BinReport report_;
+};
+
+/// The image's own turn, then the sensor's.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> turned(const Eigen::Matrix<double, Dim, Dim>& world_from_sensor, double angle) {
+  const auto [s, c] = sin_cos(angle);
+  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+  turn(0, 0) = turn(1, 1) = c;
+  turn(0, 1) = -s;
+  turn(1, 0) = s;
+  return world_from_sensor * turn;
+}
+
+/// Indices of an order after some points have been left out.
+std::vector<std::int32_t> renumbered(const RayOrder& order, std::span<const std::int32_t> place) {
+  std::vector<std::int32_t> all(order.point.begin(), order.point.end());
+  for (std::int32_t& i : all)
+    if (i >= 0) i = static_cast<std::size_t>(i) < place.size() ? place[static_cast<std::size_t>(i)] : -2;
+  return all;
+}
+
+}  // namespace
+
+template <int Dim>
+double estimate_step(std::span<const Vec<Dim>> points) {
+  return estimate<Dim>(directions_of<Dim>(points));
+}
+
+template <int Dim>
+BinnedScan<Dim> bin_points(std::span<const Vec<Dim>> points, const Pose<Dim>& pose, const BinOptions& options, const std::optional<RayOrder>& order) {
+  BinnedScan<Dim> out;
+  std::vector<Polar> kept;
+  std::vector<std::int32_t> place(points.size(), -2);
+  std::int64_t near = 0, far = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Polar p = polar<Dim>(Vec<Dim>(pose.world_from_sensor.transpose() * (points[i] - pose.position)));
+    if (!(p.range > 0.0) || p.range < options.min_range || p.range > options.max_range) {
+      ++(p.range > options.max_range ? far : near);
+      continue;
+    }
+    place[i] = static_cast<std::int32_t>(kept.size());
+    kept.push_back(p);
+    out.scan.points.push_back(points[i]);
+  }
+  require(!kept.empty(), fmt::format("no point lies between {:g} and {:g} m from the scanner", options.min_range, options.max_range));
+  Binner<Dim> binner(kept, options, options.step > 0.0 ? options.step : estimate<Dim>(kept));
+  std::optional<RayOrder> rays;
+  std::vector<std::int32_t> numbers;
+  if (order) {
+    numbers = renumbered(*order, place);
+    rays = RayOrder{order->columns, order->rows, numbers};
+  }
+  binner.run(rays);
+  out.report = binner.report();
+  out.report.points = static_cast<std::int64_t>(kept.size());
+  out.report.near = near;
+  out.report.far = far;
+  out.scan.origin = pose.position;
+  out.scan.world_from_sensor = turned<Dim>(pose.world_from_sensor, binner.image().turn);
+  out.scan.pattern = binner.image().pattern;
+  out.scan.pattern.min_range = options.min_range;
+  out.scan.pattern.max_range = options.max_range;
+  out.scan.ranges = std::move(binner.ranges());
+  return out;
+}
+
+#define VANTAGE_INSTANTIATE(D)                                   \
+  template double estimate_step<D>(std::span<const Vec<D>>);     \
+  template BinnedScan<D> bin_points<D>(std::span<const Vec<D>>, const Pose<D>&, const BinOptions&, const std::optional<RayOrder>&);
+VANTAGE_INSTANTIATE(2)
+VANTAGE_INSTANTIATE(3)
+
+}  // namespace vantage
