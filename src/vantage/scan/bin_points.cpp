@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kSteps[] = {0.1, 0.125, 0.15, 0.18, 0.2, 0.225, 0.25, 0.3, 0.36, 0.4, 0.45, 0.5, 0.6, 0.75, 0.9,
                              1.0, 1.25,  1.35, 1.5,  1.8, 2.0,   2.5,  3.0, 3.6,  4.0, 5.0,  6.0, 7.5, 10.0};  // [deg]
-constexpr int kReach = 2;         // Of the hits that close a gap between them [rays at the horizon].
+constexpr int kReach = 4;         // From hit to hit across a gap that they close [rays at the horizon].
+constexpr double kMetricReach = 4.0;  // The same where points are sparse in angle [their spacing]: clouds thinned to even spacing are, close by.
+constexpr int kFarthest = 40;     // No gap is looked across farther than this [rays].
 constexpr double kWideGap = 15;   // Azimuths without hits that lie outside of the field of view [deg].
 constexpr int kFewHits = 3;       // An elevation with fewer does not widen the field of view.
 constexpr float kEmpty = -1.0F;   // While it is not decided.
@@ -30,6 +32,41 @@ Polar polar(const Vec<Dim>& p) {
   double up = 0.0;
   for (int a = 2; a < Dim; ++a) up = p[a];
   return {angle_of(p[1], p[0]), angle_of(up, flat), p.norm()};
+}
+
+/// Median distance of a point to the nearest other one; 0 if there is none [m].
+template <int Dim>
+double spacing_of(std::span<const Vec<Dim>> points, double guess) {
+  constexpr std::size_t kSamples = 1000;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSamples);
+  const auto cell_of = [](const Vec<Dim>& p, double side) {
+    std::array<std::int64_t, 3> cell{};
+    for (int a = 0; a < Dim; ++a) cell[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(std::floor(p[a] / side));
+    return cell;
+  };
+  for (double side = guess; side < 1e3 * guess; side *= 2.0) {
+    std::vector<std::pair<std::array<std::int64_t, 3>, std::size_t>> cells;
+    for (std::size_t i = 0; i < points.size(); ++i) cells.emplace_back(cell_of(points[i], side), i);
+    std::sort(cells.begin(), cells.end());
+    std::vector<double> nearest;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      double least = side * side;  // Farther ones may lie outside of the cells around.
+      const std::array<std::int64_t, 3> home = cell_of(points[i], side);
+      for (std::int64_t x = -1; x <= 1; ++x)
+        for (std::int64_t y = -1; y <= 1; ++y) {
+          const std::array<std::int64_t, 3> low{home[0] + x, home[1] + y, home[2] - 1};
+          for (auto at = std::lower_bound(cells.begin(), cells.end(), std::pair(low, std::size_t{0})); at != cells.end(); ++at) {
+            if (at->first[0] != low[0] || at->first[1] != low[1] || at->first[2] > home[2] + 1) break;
+            if (at->second != i) least = std::min(least, (points[at->second] - points[i]).squaredNorm());
+          }
+        }
+      nearest.push_back(std::sqrt(least));
+    }
+    const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+    std::nth_element(nearest.begin(), middle, nearest.end());
+    if (*middle < 0.999 * side) return *middle;
+  }
+  return 0.0;
 }
 
 /// The image's rays, turned so that the points lie in the middle of theirs.
@@ -110,8 +147,8 @@ double estimate(std::span<const Polar> points) {
 template <int Dim>
 class Binner {
  public:
-  Binner(std::span<const Polar> points, const BinOptions& options, double step)
-      : points_(points), options_(options), image_(points, step), ranges_(static_cast<std::size_t>(image_.columns * image_.rows), kEmpty) {
+  Binner(std::span<const Polar> points, const BinOptions& options, double step, double spacing)
+      : points_(points), options_(options), spacing_(spacing), image_(points, step), ranges_(static_cast<std::size_t>(image_.columns * image_.rows), kEmpty) {
     for (const Polar& p : points) {
       float& range = ranges_[image_.index(image_.column(p), image_.row(p))];
       const auto here = static_cast<float>(p.range);
@@ -187,9 +224,10 @@ class Binner {
   }
 
   /// Range between two hits, one on each side: of the plane through them if they are alike, else of the nearer; kEmpty if one is missing.
-  [[nodiscard]] float between(int c, int r, int dc, int dr, int reach) const {
+  [[nodiscard]] float between(int c, int r, int dc, int dr, double width) const {
+    const int most = std::min(static_cast<int>(farthest_ / width), image_.columns / 4);
     const auto side = [&](int sign, int& steps) {
-      for (steps = 1; steps <= reach; ++steps) {
+      for (steps = 1; steps <= most; ++steps) {
         const int row = r + sign * steps * dr;
         if (row < 0 || row >= image_.rows) return kEmpty;
         const float range = ranges_[image_.index(c + sign * steps * dc, row)];
@@ -199,22 +237,29 @@ class Binner {
     };
     int left = 0, right = 0;
     const float a = side(-1, left), b = side(1, right);
-    if (!(std::isfinite(a) && std::isfinite(b)) || a == kEmpty || b == kEmpty || left + right > reach + 1) return kEmpty;
-    const float least = std::min(a, b), most = std::max(a, b);
-    if (most > 1.2F * least) return least;
+    if (!(std::isfinite(a) && std::isfinite(b)) || a == kEmpty || b == kEmpty) return kEmpty;
+    const float least = std::min(a, b);
+    const double gap = (left + right) * width;
+    if (gap > kReach && gap * image_.pattern.step * static_cast<double>(least) > kMetricReach * spacing_) return kEmpty;
+    if (std::max(a, b) > 1.2F * least) return least;
     const auto w = static_cast<float>(left) / static_cast<float>(left + right);
     return 1.0F / ((1.0F - w) / a + w / b);
   }
 
   void close_gaps() {
+    std::vector<double> near;
+    for (const Polar& p : points_) near.push_back(p.range);
+    const auto low = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 100);
+    std::nth_element(near.begin(), low, near.end());
+    farthest_ = std::clamp(std::ceil(kMetricReach * spacing_ / (*low * image_.pattern.step)), static_cast<double>(kReach), static_cast<double>(kFarthest));
     std::vector<float> closed = ranges_;
     for (int r = 0; r < image_.rows; ++r) {
       const double cosine = sin_cos((Dim - 2) * image_.pattern.elevation(r))[1];
-      const auto along = static_cast<int>(std::min((kReach + 1) / std::max(cosine, 1e-3), image_.columns / 4.0));
+      const double width = std::max(cosine, 1e-2);
       for (int c = 0; c < image_.columns; ++c) {
         float& range = closed[image_.index(c, r)];
         if (range != kEmpty) continue;
-        const float across = between(c, r, 0, 1, kReach + 1), around = between(c, r, 1, 0, along);
+        const float across = between(c, r, 0, 1, 1.0), around = between(c, r, 1, 0, width);
         range = across == kEmpty ? around : around == kEmpty ? across : std::min(across, around);
         report_.between += range != kEmpty ? 1 : 0;
       }
@@ -235,6 +280,7 @@ class Binner {
 
   std::span<const Polar> points_;
   const BinOptions& options_;
+  double spacing_, farthest_ = kReach;
   Image<Dim> image_;
   std::vector<float> ranges_;
   std::vector<std::uint8_t> covered_;
@@ -285,7 +331,12 @@ BinnedScan<Dim> bin_points(std::span<const Vec<Dim>> points, const Pose<Dim>& po
     out.scan.points.push_back(points[i]);
   }
   require(!kept.empty(), fmt::format("no point lies between {:g} and {:g} m from the scanner", options.min_range, options.max_range));
-  Binner<Dim> binner(kept, options, options.step > 0.0 ? options.step : estimate<Dim>(kept));
+  const double step = options.step > 0.0 ? options.step : estimate<Dim>(kept);
+  std::vector<double> ranges;
+  for (const Polar& p : kept) ranges.push_back(p.range);
+  std::nth_element(ranges.begin(), ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2), ranges.end());
+  const double guess = std::max(0.5 * step * ranges[ranges.size() / 2], 1e-6);
+  Binner<Dim> binner(kept, options, step, spacing_of<Dim>(out.scan.points, guess));
   std::optional<RayOrder> rays;
   std::vector<std::int32_t> numbers;
   if (order) {

@@ -51,7 +51,8 @@ template <int Dim>
 [[nodiscard]] double estimate_step(std::span<const Vec<Dim>> points);
 
 /// A scan out of points in the world's frame and the place it was taken from. Of several points in one direction the nearest gives the range; a
-/// direction without a hit that has hits close by on both sides, along or across, lies on the surface between them. The field of view is what hits
+/// direction without a hit that has hits close by on both sides, along or across, lies on the surface between them: four rays from hit to hit, or four
+/// times the distance between points, for a cloud thinned to even spacing is sparse in angle close by. The field of view is what hits
 /// cover: elevations between the lowest and the highest with three hits or more, azimuths without a gap of 15 degrees. With `order`, the rays that
 /// came back empty are free and those not fired unknown, whatever the options say. Throws bad_input if no point is left.
 template <int Dim>

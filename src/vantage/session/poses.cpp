@@ -32,8 +32,9 @@ std::vector<std::string> words_of(std::string_view line) {
   for (const char c : line) {
     const bool apart = c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
     if (!apart) word += c;
-    if ((apart || &c == &line.back()) && !word.empty()) words.push_back(std::exchange(word, {}));
+    if (apart && !word.empty()) words.push_back(std::exchange(word, {}));
   }
+  if (!word.empty()) words.push_back(word);
   return words;
 }
 
@@ -159,6 +160,9 @@ std::vector<FilePose> parse_poses(std::string_view text, const std::string& wher
                       "them (x,y,z,qw,qx,qy,qz)",
                       first.words.size()),
           place);
+  const auto turns = std::count_if(layout.begin(), layout.end(), [](int k) { return k >= 0 && k % 4 != 3 && k < kQuaternion; });
+  const auto quaternion = std::count_if(layout.begin(), layout.end(), [](int k) { return k >= kQuaternion; });
+  require((turns == 0 || has_rotation(layout)) && (quaternion == 0 || has(layout, kQuaternion, 4)), "the columns name a part of a rotation", place);
   std::vector<FilePose> poses;
   for (std::size_t k = header ? 1 : 0; k < lines.size(); ++k) poses.push_back(pose_of(lines[k], layout, where));
   return poses;
