@@ -73,6 +73,7 @@ struct Explorer<Dim>::Impl {
   std::vector<Vec<Dim>> path, visited;
   Verdict<Dim> verdict;
   StationRule<Dim> rule;
+  std::size_t travelled = 0;  // Corners of the path up to the last scan; the rest is the way to the proposed place.
   bool finished = false;
 
   static Grid<Dim> lattice(const Box<Dim>& domain, const Vec<Dim>& start, const ExploreOptions& options) {
@@ -123,6 +124,12 @@ struct Explorer<Dim>::Impl {
     const double eta = options.surface.eta;
 
     const Scan<Dim> scan = timed("scan", [&] { return sensor.scan(vantage_point, record.scan); });  // LIDAR(x_c)
+    if (!steps.empty() && scan.origin != decision.position) {  // Taken elsewhere than proposed: straight there.
+      path.resize(travelled);
+      if (path.empty()) path.push_back(visited.back());
+      path.push_back(scan.origin);
+      record.path_length = (scan.origin - visited.back()).norm();
+    }
     const Grid<Dim> near = window_of(scan);
     const SurfaceUpdate<Dim> update =
         timed("surface", [&] { return surface.insert(hit_points(scan), SurfaceSensor<Dim>{scan.origin, scan.pattern.step}); });  // Sec. IV-A
@@ -151,6 +158,7 @@ struct Explorer<Dim>::Impl {
     record.candidates = decision.candidates;
     record.seen_fraction = verdict.seen_fraction;
     visited.push_back(scan.origin);
+    travelled = path.size();
     path.insert(path.end(), decision.found ? decision.path.begin() : decision.path.end(), decision.path.end());
     if (!decision.found && path.empty()) path.push_back(scan.origin);
     steps.push_back(record);

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kFarthest = 3.0;  // Ground that far from the scanner may still be its own [m].
+constexpr double kFarthest = 6.0;  // Ground that far from the scanner may still be its own [m].
 
 /// A place to stand, in one column of the lattice.
 struct Floor {

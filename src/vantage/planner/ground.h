@@ -16,7 +16,7 @@ struct GroundOptions {
 
 /// Nodes a scanner on legs may be put at: seen, at `height` (to within a cell) above known ground, all below it seen and free, at `clearance` from
 /// the known surfaces, and joined to the ground nearest to `from` over slopes and steps that can be walked (1, else 0). None if no ground is known
-/// within 3 m or twice the height of `from`, whichever is more. The ground is where an obstacle node lies below a seen one; its height is good to a
+/// within 6 m or twice the height of `from`, whichever is more. The ground is where an obstacle node lies below a seen one; its height is good to a
 /// small part of a cell, by the distance to the known surface.
 template <int Dim>
 [[nodiscard]] Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options);

@@ -92,7 +92,7 @@ struct Image {
     const int odd = level >= 0.0 ? 1 : 0;
     const auto most = static_cast<int>(std::floor(kPi / step + 1e-6)) + 1;
     const auto least = static_cast<int>(std::ceil(radians(1.0) / step)) + 1;
-    rows = 2 * static_cast<int>(std::ceil(highest / step - 0.5 * (1 - odd))) + odd;
+    rows = 2 * static_cast<int>(std::ceil(highest / step + 0.5 * (1 - odd) - 1e-3)) + odd;
     rows = std::max(std::min(rows, most), least);
     if (rows % 2 != odd) rows += rows < most ? 1 : -1;
     pattern.vertical_fov = std::min((rows - 1) * step, kPi);
@@ -136,11 +136,32 @@ bool is_full(std::span<const Polar> points, double step) {
   return 2 * full > hits;
 }
 
+/// How well the azimuths stand in columns of the image: 1 in the middle of each, 0 anywhere.
+double in_columns(std::span<const Polar> points, double step) {
+  ScanPattern pattern;
+  pattern.step = step;
+  double sine = 0.0, cosine = 0.0;
+  for (const Polar& p : points) {
+    const auto [s, c] = sin_cos(p.azimuth * pattern.columns());
+    sine += s;
+    cosine += c;
+  }
+  return std::sqrt(sine * sine + cosine * cosine) / static_cast<double>(points.size());
+}
+
 template <int Dim>
 double estimate(std::span<const Polar> points) {
-  for (const double step : kSteps)
-    if (is_full<Dim>(points, radians(step))) return radians(step);
-  return radians(kSteps[std::size(kSteps) - 1]);
+  constexpr double kAlike = 1.35, kInColumns = 0.5;
+  double best = 0.0, first = 0.0, most = kInColumns;
+  for (const double degrees : kSteps) {
+    const double step = radians(degrees);
+    if (first > 0.0 && step > kAlike * first) break;
+    if (first == 0.0 && !is_full<Dim>(points, step)) continue;
+    if (first == 0.0) first = best = step;
+    // A regular scan's own step is the one that its columns keep; a slightly smaller one is nearly full, too.
+    if (const double share = in_columns(points, step); share > most) most = share, best = step;
+  }
+  return best > 0.0 ? best : radians(kSteps[std::size(kSteps) - 1]);
 }
 
 /// Fills the image from the points.
@@ -246,6 +267,29 @@ class Binner {
     return 1.0F / ((1.0F - w) / a + w / b);
   }
 
+  /// Range in the middle of hits in all four quadrants around, no farther than the spacing of the points explains; kEmpty if there are none.
+  [[nodiscard]] float surrounded(int c, int r, double width) const {
+    for (int half = 1; half <= static_cast<int>(farthest_) / 2; half *= 2) {
+      const int across = std::min(static_cast<int>(half / width), image_.columns / 4);
+      unsigned quadrants = 0;
+      double least = kInfinity, most = 0.0, inverse = 0.0;
+      int hits = 0;
+      for (int dr = std::max(-half, -r); dr <= std::min(half, image_.rows - 1 - r); ++dr)
+        for (int dc = -across; dc <= across; ++dc) {
+          const auto range = static_cast<double>(ranges_[image_.index(c + dc, r + dr)]);
+          if (dc == 0 || dr == 0 || !(range > 0.0 && range < kInfinity)) continue;
+          quadrants |= 1U << ((dc > 0 ? 1 : 0) + (dr > 0 ? 2 : 0));
+          least = std::min(least, range);
+          most = std::max(most, range);
+          inverse += 1.0 / range;
+          ++hits;
+        }
+      if (2 * half * image_.pattern.step * least > kMetricReach * spacing_) continue;
+      if (quadrants == 15U) return static_cast<float>(most > 1.5 * least ? least : hits / inverse);
+    }
+    return kEmpty;
+  }
+
   void close_gaps() {
     std::vector<double> near;
     for (const Polar& p : points_) near.push_back(p.range);
@@ -261,6 +305,7 @@ class Binner {
         if (range != kEmpty) continue;
         const float across = between(c, r, 0, 1, 1.0), around = between(c, r, 1, 0, width);
         range = across == kEmpty ? around : around == kEmpty ? across : std::min(across, around);
+        if (range == kEmpty && Dim > 2) range = surrounded(c, r, width);
         report_.between += range != kEmpty ? 1 : 0;
       }
     }
@@ -274,7 +319,7 @@ class Binner {
       return;
     }
     const bool inside = r >= low_ && r <= high_ && covered_[static_cast<std::size_t>(c)] != 0;
-    ++(inside ? report_.empty : report_.outside);
+    ++(inside && !ordered ? report_.empty : report_.outside);
     range = inside && options_.no_return_free && !ordered ? kNoReturn : kNoData;
   }
 
