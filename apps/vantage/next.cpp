@@ -68,6 +68,7 @@ constexpr ListFlag kLists[] = {
     {"--domain", "x0,y0,z0,x1,y1,z1", "next.domain", "what is to be seen, a box [m] (default: around the points, without strays)"},
     {"--keep-out", "x0,y0,z0,x1,y1,z1", "next.keep_out", "a box where no scanner may stand or pass [m]; several: give it again"},
     {"--must-see", "x0,y0,z0,x1,y1,z1", "next.must_see", "a box where what is hidden counts ten times [m]; several: give it again"},
+    {"--among", "x,y,z", "next.among", "only this place comes into question [m]; several: give it again"},
     {"--planned", "x,y,z", "next.planned", "a station that is planned already: what it will show is not counted again [m]; several: give it again"},
 };
 
@@ -93,16 +94,24 @@ class NextFlags {
   explicit NextFlags(CommandParser& parser) {
     parser.app().add_option("SCANS", inputs_, "point clouds, or a run folder and clouds to add to it");
     parser.option("--poses", poses_, "FILE",
-                  "where the scans were taken: CSV x,y,z[,qw,qx,qy,qz], KITTI 3x4, TUM, by the files' names or in their order; beats the files", "Scans");
-    parser.app().add_option("--at", at_, "where the scan was taken [m]; of several scans once for each, in their order")->type_name("x,y,z")->group("Scans");
+                  "where the scans were taken: CSV x,y,z[,qw,qx,qy,qz], KITTI 3x4, TUM, by the files' names or in their order; beats the files",
+                  "Scans");
+    parser.app()
+        .add_option("--at", at_, "where the scan was taken [m]; of several scans once for each, in their order")
+        ->type_name("x,y,z")
+        ->group("Scans");
     parser.option("--unit", unit_, "UNIT", "of files and poses: m, cm, mm, ft, us-ft, in, or metres as a number (measured.unit)", "Scans");
     for (const Flag& flag : kFlags) options_.push_back(parser.option(flag.name, texts_.emplace_back(), flag.type, help_of(flag.option), flag.group));
     for (const ListFlag& flag : kLists)
       parser.app().add_option(flag.name, lists_.emplace_back(), flag.help)->type_name(flag.type)->group("Next station");
-    parser.app().add_option("--set", sets_, "any option: next.*, measured.*, explore.*, surface.*, visibility.*, planner.*")->type_name("STAGE.OPTION=VALUE")->group("Method");
+    parser.app()
+        .add_option("--set", sets_, "any option: next.*, measured.*, explore.*, surface.*, visibility.*, planner.*")
+        ->type_name("STAGE.OPTION=VALUE")
+        ->group("Method");
     parser.option("-o,--output", folder_, "RUN", "keep the scans in this new run folder, with next.json, next.csv and a report", "Run");
     parser.app()
-        .add_option("--remove", remove_, "take scan K out of the run first (several: --remove 3 --remove 7); the log as it was stays in scans.log.bak")
+        .add_option("--remove", remove_,
+                    "take scan K out of the run first (several: --remove 3 --remove 7); the log as it was stays in scans.log.bak")
         ->type_name("K")
         ->group("Run");
     parser.option("--threads", threads_, "N", "at most so many threads (default: all cores); the results do not depend on it", "Run");
@@ -148,7 +157,8 @@ class NextFlags {
     return all;
   }
   static std::string metres(const std::string& unit) {
-    constexpr std::pair<const char*, const char*> kUnits[] = {{"m", "1"}, {"cm", "0.01"}, {"mm", "0.001"}, {"ft", "0.3048"}, {"us-ft", "0.30480060960121924"}, {"in", "0.0254"}};
+    constexpr std::pair<const char*, const char*> kUnits[] = {
+        {"m", "1"}, {"cm", "0.01"}, {"mm", "0.001"}, {"ft", "0.3048"}, {"us-ft", "0.30480060960121924"}, {"in", "0.0254"}};
     for (const auto& [name, value] : kUnits)
       if (unit == name) return value;
     return unit;
@@ -181,8 +191,9 @@ std::string answer_text(const vantage::NextOutcome& outcome) {
   } else {
     const Json& best = j["ranked"][0];
     out += fmt::format("next: {}\n", place_text(best["vantage"]));
-    out += fmt::format("  why      it faces {} {} of the border of what was seen, and would show about {} {} more; {:.0f} % of its view is known surface\n",
-                       volume(number(best["new_area_m2"])), side, volume(number(best["new_volume_m3"])), unit, 100.0 * number(best["overlap"]));
+    out += fmt::format(
+        "  why      it faces {} {} of the border of what was seen, and would show about {} {} more; {:.0f} % of its view is known surface\n",
+        volume(number(best["new_area_m2"])), side, volume(number(best["new_volume_m3"])), unit, 100.0 * number(best["overlap"]));
     out += fmt::format("  way      {:.1f} m from the last scan, {} turns\n", number(best["path_m"]), j["path"].size() > 2 ? j["path"].size() - 2 : 0);
     for (std::size_t k = 1; k < j["ranked"].size(); ++k) {
       const Json& place = j["ranked"][k];
@@ -196,7 +207,8 @@ std::string answer_text(const vantage::NextOutcome& outcome) {
   out += fmt::format("  unseen   {} {}", volume(number(j["unseen_m3"])), unit);
   const Json& unseen = j["verdict"]["unseen"];
   for (std::size_t k = 0; k < std::min<std::size_t>(3, unseen.size()); ++k)
-    out += fmt::format("{} {} {} ({})", k == 0 ? "; largest" : ",", volume(number(unseen[k]["volume_m3"])), unit, unseen[k]["reason"].get<std::string>());
+    out += fmt::format("{} {} {} ({})", k == 0 ? "; largest" : ",", volume(number(unseen[k]["volume_m3"])), unit,
+                       unseen[k]["reason"].get<std::string>());
   out += "\n";
   for (const std::string& note : outcome.notes) out += fmt::format("note: {}\n", note);
   if (!outcome.folder.empty()) {

@@ -124,7 +124,7 @@ struct Explorer<Dim>::Impl {
     const double eta = options.surface.eta;
 
     const Scan<Dim> scan = timed("scan", [&] { return sensor.scan(vantage_point, record.scan); });  // LIDAR(x_c)
-    if (!steps.empty() && scan.origin != decision.position) {  // Taken elsewhere than proposed: straight there.
+    if (!steps.empty() && scan.origin != decision.position) {                                       // Taken elsewhere than proposed: straight there.
       path.resize(travelled);
       if (path.empty()) path.push_back(visited.back());
       path.push_back(scan.origin);

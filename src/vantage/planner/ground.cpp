@@ -151,8 +151,8 @@ double height_above_ground(const BeliefView<Dim>& view, const Vec<Dim>& from, do
   return heights[heights.size() / 2];
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                   \
-  template Field<D, std::uint8_t> walkable_nodes<D>(const BeliefView<D>&, const Vec<D>&, const GroundOptions&);                  \
+#define VANTAGE_INSTANTIATE(D)                                                                                  \
+  template Field<D, std::uint8_t> walkable_nodes<D>(const BeliefView<D>&, const Vec<D>&, const GroundOptions&); \
   template double height_above_ground<D>(const BeliefView<D>&, const Vec<D>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

@@ -38,9 +38,10 @@ struct StationRule {
 template <int Dim>
 struct RankRequest {
   std::int64_t count = 5;
-  double apart = 0.0;                 ///< At least so far from each other and from `planned` [m].
-  double overlap = 0.0;               ///< Least share of known surface in what is in view, for registration [1].
-  std::vector<Vec<Dim>> planned = {}; ///< Stations already planned: what they will show is not counted again.
+  double apart = 0.0;                  ///< At least so far from each other and from `planned` [m].
+  double overlap = 0.0;                ///< Least share of known surface in what is in view, for registration [1].
+  std::vector<Vec<Dim>> planned = {};  ///< Stations already planned: what they will show is not counted again.
+  std::vector<Vec<Dim>> among = {};    ///< Only these places, wherever they are; empty: the candidates of the last decision.
 };
 
 /// A place to scan from, beside the others of a list.
@@ -95,6 +96,7 @@ class Planner {
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view, const Field<Dim>* weight) const;
   [[nodiscard]] std::vector<Vec<Dim>> path_to(std::size_t node, const Vec<Dim>& here) const;
+  [[nodiscard]] std::vector<Vec<Dim>> way_to(const Vec<Dim>& place) const;
   [[nodiscard]] std::vector<std::size_t> candidates(const BeliefView<Dim>& view) const;
 
   PlannerOptions options_;

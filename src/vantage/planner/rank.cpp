@@ -10,9 +10,10 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kRays = 4000;    // Of a look at a place (2D: a quarter).
-constexpr double kOpen = 0.05;         // A boundary that opens with less is no surface that could be registered, nor much to see.
-constexpr double kFaint = 0.02;        // What is shown with less counts as hidden.
+constexpr std::size_t kRays = 4000;  // Of a look at a place (2D: a quarter).
+constexpr double kOpen = 0.05;       // A boundary that opens with less is no surface that could be registered, nor much to see.
+constexpr double kFaint = 0.02;      // What is shown with less counts as hidden.
+constexpr std::size_t kNever = ~std::size_t{0};
 
 /// e^-x for a small x >= 0, by + * / alone.
 double fading(double x) {
@@ -85,12 +86,29 @@ class Preview {
 /// A candidate and the score it had when so many places had been taken.
 struct Entry {
   double score = 0.0;
-  std::size_t node = 0;
+  std::size_t place = 0;
   std::size_t taken = 0;
-  [[nodiscard]] bool operator<(const Entry& other) const { return std::tuple(score, other.node) < std::tuple(other.score, node); }
+  [[nodiscard]] bool operator<(const Entry& other) const { return std::tuple(score, other.place) < std::tuple(other.score, place); }
 };
 
 }  // namespace
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::vector<Vec<Dim>> Planner<Dim>::way_to(const Vec<Dim>& place) const {
+  const Vec<Dim>& here = visited_.back();
+  const Grid<Dim>& grid = reachable_.window;
+  std::size_t node = grid.size();
+  double nearest = kInfinity;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const double distance = reachable_[i] != 0 ? (grid.position(i) - place).squaredNorm() : kInfinity;
+    if (distance < nearest) nearest = distance, node = i;
+  }
+  if (node == grid.size()) return {here, place};
+  std::vector<Vec<Dim>> path = path_to(node, here);
+  if (nearest > 0.0) path.push_back(place);
+  return path;
+}
 
 template <int Dim>
   requires SpatialDim<Dim>
@@ -109,26 +127,35 @@ std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, co
   double least = options_.stop_volume * static_cast<double>(seen_nodes(view));
   for (int a = 0; a < Dim; ++a) least *= grid.spacing;
   std::priority_queue<Entry> queue;
-  for (const auto& [node, score] : last_) queue.push({score, node, ~std::size_t{0}});
-  if (request.planned.empty() && !last_.empty()) queue.push({kInfinity, last_.front().first, 0});  // The decision stands.
+  std::vector<Vec<Dim>> places = request.among;
+  if (places.empty())
+    for (const auto& [node, score] : last_) {
+      queue.push({score, places.size(), kNever});
+      places.push_back(grid.position(node));
+    }
+  else
+    for (std::size_t k = 0; k < places.size(); ++k) queue.push({kInfinity, k, kNever});
+  const bool stands = request.planned.empty() && request.among.empty() && !last_.empty();
+  if (stands) queue.push({kInfinity, 0, 0});  // The decision is the first.
   std::vector<Vec<Dim>> taken = request.planned;
   std::vector<RankedPlace<Dim>> ranked;
   while (static_cast<std::int64_t>(ranked.size()) < request.count && !queue.empty()) {
-    Entry entry = queue.top();
+    const Entry entry = queue.top();
     queue.pop();
-    const Vec<Dim> place = grid.position(entry.node);
-    const bool close = std::any_of(taken.begin(), taken.end(), [&](const Vec<Dim>& p) { return (p - place).norm() < std::max(request.apart, grid.spacing); });
+    const Vec<Dim>& place = places[entry.place];
+    const bool close =
+        std::any_of(taken.begin(), taken.end(), [&](const Vec<Dim>& p) { return (p - place).norm() < std::max(request.apart, 0.5 * grid.spacing); });
     if (close) continue;
     const RaySums sums = rays(view, &left).look(place, directions);
     if (entry.taken != ranked.size()) {  // Scores only fall as places are taken: the first that keeps its place is the best.
-      queue.push({mix(sums), entry.node, ranked.size()});
+      queue.push({mix(sums), entry.place, ranked.size()});
       continue;
     }
     const double overlap = preview.overlap(place, directions);
     if (sums.volume < least || overlap < request.overlap) continue;
     const RaySums alone = rays(view, nullptr).look(place, directions);
     const double score = entry.score < kInfinity ? entry.score : last_.front().second;
-    ranked.push_back({place, score, alone.volume, sums.volume, alone.area, overlap, path_to(entry.node, visited_.back())});
+    ranked.push_back({place, score, alone.volume, sums.volume, alone.area, overlap, way_to(place)});
     taken.push_back(place);
     if (static_cast<std::int64_t>(ranked.size()) < request.count) take(place);
   }

@@ -206,8 +206,9 @@ Figure next_figure(const ReportInput<3>& input, const Box<3>& box) {
   for (const StepRecord<3>& step : input.steps) places.push_back(step.vantage), numbers.push_back(step.scan);
   const RankedPlace<3>& best = input.next.front();
   Figure figure{"next", "Where to scan next", {}, {}, {}};
-  figure.caption = fmt::format("A, at {}, is the best place: it would show about {} that no scan has seen. The line is the way there from the last scan.",
-                               place_text<3>(best.position), quantity(best.new_volume, "m³"));
+  figure.caption =
+      fmt::format("A, at {}, is the best place: it would show about {} that no scan has seen. The line is the way there from the last scan.",
+                  place_text<3>(best.position), quantity(best.new_volume, "m³"));
   figure.legend = legend_entry("dot", "", "scan") + legend_entry("line", "", "way to A") + legend_entry("line", css(kSection), "wall at the cut");
   figure.panels.push_back({resolved(raster, {0.0}),
                            station_overlay(on_picture<3>(places, camera), numbers) + next_overlay(input, camera) +

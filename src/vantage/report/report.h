@@ -29,7 +29,7 @@ struct ReportInput {
   SurfaceStatistics surface;
   std::vector<RankedPlace<Dim>> next = {};  ///< Places to scan from next, best first; of a person's scans.
   std::vector<std::string> notes = {};      ///< What was assumed of them.
-  int picture_width = 1400;  ///< Of the large pictures [pixels].
+  int picture_width = 1400;                 ///< Of the large pictures [pixels].
 };
 
 /// One self-contained HTML page (no network, pictures inline).

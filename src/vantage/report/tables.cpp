@@ -5,7 +5,6 @@
 #include "vantage/report/html.h"
 #include "vantage/report/maps.h"
 #include "vantage/report/sections.h"
-#include "vantage/report/maps.h"
 #include "vantage/report/text.h"
 
 namespace vantage {
@@ -174,13 +173,15 @@ std::string next_html(const ReportInput<Dim>& input) {
       const RankedPlace<Dim>& place = input.next[k];
       double way = 0.0;
       for (std::size_t i = 1; i < place.path.size(); ++i) way += (place.path[i] - place.path[i - 1]).norm();
-      rows.push_back({std::string(1, static_cast<char>('A' + k % 26)), escaped(place_text<Dim>(place.position)), quantity(place.new_volume, volume_unit<Dim>()),
-                      quantity(place.added_volume, volume_unit<Dim>()), percent(place.overlap), quantity(way, "m")});
+      rows.push_back({std::string(1, static_cast<char>('A' + k % 26)), escaped(place_text<Dim>(place.position)),
+                      quantity(place.new_volume, volume_unit<Dim>()), quantity(place.added_volume, volume_unit<Dim>()), percent(place.overlap),
+                      quantity(way, "m")});
     }
     const std::string word(volume_word<Dim>());
     html += table({"", "Place", ">New " + word, ">Beyond the better ones", ">Known in view", ">Way"}, rows);
     html += "<p class=\"note\">Best first. New " + word +
-            " is what the place is expected to show; the next column leaves out what the places above it will have shown. Known in view: the share of known "
+            " is what the place is expected to show; the next column leaves out what the places above it will have shown. Known in view: the share "
+            "of known "
             "surface in what is seen from there, to register the scan by.</p>\n</section>\n";
   }
   if (input.notes.empty()) return html;

@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kSteps[] = {0.1, 0.125, 0.15, 0.18, 0.2, 0.225, 0.25, 0.3, 0.36, 0.4, 0.45, 0.5, 0.6, 0.75, 0.9,
                              1.0, 1.25,  1.35, 1.5,  1.8, 2.0,   2.5,  3.0, 3.6,  4.0, 5.0,  6.0, 7.5, 10.0};  // [deg]
-constexpr int kReach = 4;         // From hit to hit across a gap that they close [rays at the horizon].
+constexpr int kReach = 4;             // From hit to hit across a gap that they close [rays at the horizon].
 constexpr double kMetricReach = 4.0;  // The same where points are sparse in angle [their spacing]: clouds thinned to even spacing are, close by.
-constexpr int kFarthest = 40;     // No gap is looked across farther than this [rays].
-constexpr double kWideGap = 15;   // Azimuths without hits that lie outside of the field of view [deg].
-constexpr int kFewHits = 3;       // An elevation with fewer does not widen the field of view.
-constexpr float kEmpty = -1.0F;   // While it is not decided.
+constexpr int kFarthest = 40;         // No gap is looked across farther than this [rays].
+constexpr double kWideGap = 15;       // Azimuths without hits that lie outside of the field of view [deg].
+constexpr int kFewHits[] = {1, 3};    // An elevation with fewer does not widen the field of view; in the plane there is one only.
+constexpr float kEmpty = -1.0F;       // While it is not decided.
 
 /// Direction and distance of a point.
 struct Polar {
@@ -128,8 +128,7 @@ bool is_full(std::span<const Polar> points, double step) {
       if (hit[image.index(c, r)] == 0) continue;
       int empty = 0;
       for (int dc = -1; dc <= 1; ++dc)
-        for (int dr = -(Dim - 2); dr <= Dim - 2; ++dr)
-          empty += r + dr >= 0 && r + dr < image.rows && hit[image.index(c + dc, r + dr)] == 0 ? 1 : 0;
+        for (int dr = -(Dim - 2); dr <= Dim - 2; ++dr) empty += r + dr >= 0 && r + dr < image.rows && hit[image.index(c + dc, r + dr)] == 0 ? 1 : 0;
       ++hits;
       full += empty <= Dim - 2 ? 1 : 0;
     }
@@ -169,7 +168,11 @@ template <int Dim>
 class Binner {
  public:
   Binner(std::span<const Polar> points, const BinOptions& options, double step, double spacing)
-      : points_(points), options_(options), spacing_(spacing), image_(points, step), ranges_(static_cast<std::size_t>(image_.columns * image_.rows), kEmpty) {
+      : points_(points),
+        options_(options),
+        spacing_(spacing),
+        image_(points, step),
+        ranges_(static_cast<std::size_t>(image_.columns * image_.rows), kEmpty) {
     for (const Polar& p : points) {
       float& range = ranges_[image_.index(image_.column(p), image_.row(p))];
       const auto here = static_cast<float>(p.range);
@@ -201,7 +204,7 @@ class Binner {
     low_ = image_.rows;
     high_ = -1;
     for (int r = 0; r < image_.rows; ++r)
-      if (in_row[static_cast<std::size_t>(r)] >= (Dim == 2 ? 1 : kFewHits)) low_ = std::min(low_, r), high_ = r;
+      if (in_row[static_cast<std::size_t>(r)] >= kFewHits[Dim - 2]) low_ = std::min(low_, r), high_ = r;
     report_.lowest = (Dim - 2) * image_.pattern.elevation(std::min(low_, image_.rows - 1));
     report_.highest = (Dim - 2) * image_.pattern.elevation(std::max(high_, 0));
     covered_.assign(in_column.size(), 1);
@@ -226,7 +229,9 @@ class Binner {
       }
     };
     std::vector<Mean> azimuth(static_cast<std::size_t>(order.columns)), elevation(static_cast<std::size_t>(order.rows));
-    const auto at = [&](int c, int r) { return order.point[static_cast<std::size_t>(c) * static_cast<std::size_t>(order.rows) + static_cast<std::size_t>(r)]; };
+    const auto at = [&](int c, int r) {
+      return order.point[static_cast<std::size_t>(c) * static_cast<std::size_t>(order.rows) + static_cast<std::size_t>(r)];
+    };
     const auto valid = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < points_.size(); };
     for (int c = 0; c < order.columns; ++c)
       for (int r = 0; r < order.rows; ++r)
@@ -295,7 +300,8 @@ class Binner {
     for (const Polar& p : points_) near.push_back(p.range);
     const auto low = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 100);
     std::nth_element(near.begin(), low, near.end());
-    farthest_ = std::clamp(std::ceil(kMetricReach * spacing_ / (*low * image_.pattern.step)), static_cast<double>(kReach), static_cast<double>(kFarthest));
+    farthest_ =
+        std::clamp(std::ceil(kMetricReach * spacing_ / (*low * image_.pattern.step)), static_cast<double>(kReach), static_cast<double>(kFarthest));
     std::vector<float> closed = ranges_;
     for (int r = 0; r < image_.rows; ++r) {
       const double cosine = sin_cos((Dim - 2) * image_.pattern.elevation(r))[1];
@@ -305,7 +311,7 @@ class Binner {
         if (range != kEmpty) continue;
         const float across = between(c, r, 0, 1, 1.0), around = between(c, r, 1, 0, width);
         range = across == kEmpty ? around : around == kEmpty ? across : std::min(across, around);
-        if (range == kEmpty && Dim > 2) range = surrounded(c, r, width);
+        if (range == kEmpty) range = surrounded(c, r, width);
         report_.between += range != kEmpty ? 1 : 0;
       }
     }
@@ -402,8 +408,8 @@ BinnedScan<Dim> bin_points(std::span<const Vec<Dim>> points, const Pose<Dim>& po
   return out;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                   \
-  template double estimate_step<D>(std::span<const Vec<D>>);     \
+#define VANTAGE_INSTANTIATE(D)                               \
+  template double estimate_step<D>(std::span<const Vec<D>>); \
   template BinnedScan<D> bin_points<D>(std::span<const Vec<D>>, const Pose<D>&, const BinOptions&, const std::optional<RayOrder>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

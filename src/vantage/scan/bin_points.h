@@ -17,9 +17,9 @@ struct Pose {
 
 /// How a cloud of points becomes a scan.
 struct BinOptions {
-  double step = 0.0;         ///< Angle between rays [rad]; 0: estimated from the points.
-  double min_range = 0.0;    ///< Nearer points are hits of the scanner's own stand and are left out [m].
-  double max_range = 80.0;   ///< Farther points are left out [m].
+  double step = 0.0;           ///< Angle between rays [rad]; 0: estimated from the points.
+  double min_range = 0.0;      ///< Nearer points are hits of the scanner's own stand and are left out [m].
+  double max_range = 80.0;     ///< Farther points are left out [m].
   bool no_return_free = true;  ///< Directions within the field of view that hit nothing are free up to max_range; false: nothing is known of them.
 };
 
@@ -51,10 +51,10 @@ template <int Dim>
 [[nodiscard]] double estimate_step(std::span<const Vec<Dim>> points);
 
 /// A scan out of points in the world's frame and the place it was taken from. Of several points in one direction the nearest gives the range; a
-/// direction without a hit that has hits close by on both sides, along or across, lies on the surface between them: four rays from hit to hit, or four
-/// times the distance between points, for a cloud thinned to even spacing is sparse in angle close by. The field of view is what hits
-/// cover: elevations between the lowest and the highest with three hits or more, azimuths without a gap of 15 degrees. With `order`, the rays that
-/// came back empty are free and those not fired unknown, whatever the options say. Throws bad_input if no point is left.
+/// direction without a hit that has hits close by on both sides, along or across, lies on the surface between them: four rays from hit to hit, or
+/// four times the distance between points, for a cloud thinned to even spacing is sparse in angle close by. The field of view is what hits cover:
+/// elevations between the lowest and the highest with three hits or more, azimuths without a gap of 15 degrees. With `order`, the rays that came back
+/// empty are free and those not fired unknown, whatever the options say. Throws bad_input if no point is left.
 template <int Dim>
 [[nodiscard]] BinnedScan<Dim> bin_points(std::span<const Vec<Dim>> points, const Pose<Dim>& pose, const BinOptions& options,
                                          const std::optional<RayOrder>& order = std::nullopt);

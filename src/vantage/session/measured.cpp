@@ -51,8 +51,8 @@ std::vector<FilePose> matched(const fs::path& list, std::span<const Loaded> scan
     if (std::count_if(poses.begin(), poses.end(), same) == 1) chosen.push_back(*std::find_if(poses.begin(), poses.end(), same));
   }
   if (chosen.size() == scans.size()) return chosen;
-  require(poses.size() == scans.size(), fmt::format("{} poses for {} scans, and not every file's name has a line of its own", poses.size(), scans.size()),
-          list.string());
+  require(poses.size() == scans.size(),
+          fmt::format("{} poses for {} scans, and not every file's name has a line of its own", poses.size(), scans.size()), list.string());
   return poses;
 }
 
@@ -155,7 +155,8 @@ std::vector<MeasuredInput> read_measured(std::span<const fs::path> files, const 
     const MeasuredScan& scan = scans[k].scan;
     try {
       BinnedScan<3> binned = bin_points<3>(clouds[k], places[k].pose, bins, order_of(scan));
-      inputs.push_back({std::move(binned.scan), binned.report, fs::path(scan.name).filename().string(), scan.format, places[k].source, scan.not_finite});
+      inputs.push_back(
+          {std::move(binned.scan), binned.report, fs::path(scan.name).filename().string(), scan.format, places[k].source, scan.not_finite});
     } catch (const Error& error) {
       throw Error(error.code(), error.what(), scan.name);
     }

@@ -22,10 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kCells = 112.0;        // Along the domain's longest side, if nobody says otherwise.
-constexpr double kMostNodes = 4e6;      // The lattice is made coarser than that.
-constexpr double kTrim = 0.005;         // Share of the points that may lie outside of the domain, at each end of each axis: strays.
-constexpr double kNoOverlap = 0.05;     // A scan with less of its points on known surface may be of another place.
+constexpr double kCells = 112.0;            // Along the domain's longest side, if nobody says otherwise.
+constexpr double kMostNodes = 4e6;          // The lattice is made coarser than that.
+constexpr double kTrim = 0.005;             // Share of the points that may lie outside of the domain, at each end of each axis: strays.
+constexpr double kNoOverlap = 0.05;         // A scan with less of its points on known surface may be of another place.
 constexpr const char* kMeasured = "scans";  // The scene's name in scenario.toml.
 
 /// Scans in an order that is given, from a log or from memory.
@@ -65,11 +65,14 @@ Answer<Dim> decide(const Explorer<Dim>& explorer, const NextOptions& options) {
   request.apart = options.apart > 0.0 ? options.apart : std::max(1.0, 4.0 * explorer.window().spacing);
   request.overlap = options.overlap;
   request.planned = places_of<Dim>(options.planned);
+  request.among = places_of<Dim>(options.among);
+  if (!request.among.empty() && options.apart == 0.0) request.apart = 0.0;
   Answer<Dim> answer{explorer.rank(request), explorer.verdict()};
   Verdict<Dim>& verdict = answer.verdict;
   if (!answer.ranked.empty()) {
     const char* unit = std::array{"m²", "m³"}[Dim - 2];
-    if (!verdict.complete) verdict.reason = fmt::format("Unseen space remains: the best place would show about {:.3g} {}.", answer.ranked[0].new_volume, unit);
+    if (!verdict.complete)
+      verdict.reason = fmt::format("Unseen space remains: the best place would show about {:.3g} {}.", answer.ranked[0].new_volume, unit);
     for (UnseenRegion<Dim>& region : verdict.unseen)
       if (region.reason == "below the threshold") region.reason = "not looked at yet";
   } else if (verdict.reason.starts_with("The limit") || verdict.reason.starts_with("The exploration")) {
@@ -80,8 +83,8 @@ Answer<Dim> decide(const Explorer<Dim>& explorer, const NextOptions& options) {
 
 template <int Dim>
 Json ranked_json(const RankedPlace<Dim>& place) {
-  return {{"vantage", to_json<Dim>(place.position)},    {"score", place.score},       {"new_volume_m3", place.new_volume},
-          {"added_volume_m3", place.added_volume},      {"new_area_m2", place.new_area}, {"overlap", place.overlap},
+  return {{"vantage", to_json<Dim>(place.position)}, {"score", place.score},          {"new_volume_m3", place.new_volume},
+          {"added_volume_m3", place.added_volume},   {"new_area_m2", place.new_area}, {"overlap", place.overlap},
           {"path_m", length_of(place.path)}};
 }
 
@@ -140,13 +143,17 @@ template <int Dim>
 NextOutcome of_explored(const NextRequest& request, const World& world, const Scene<Dim>& scene, Observer* observer) {
   const NextSetup setup = next_setup(request.settings);
   check_lists<Dim>(setup.next);
-  require(Dim == 3 || (setup.next.height == 0.0 && setup.next.stand != NextOptions::Stand::ground), "a plane has no heights", "--height");
-  Scenario scenario = with_settings(world.scenario, [&] {
-    std::vector<Setting> own;
-    for (const Setting& setting : request.settings)
-      if (!setting.name.starts_with("next.") && !setting.name.starts_with("measured.")) own.push_back(setting);
-    return own;
-  }(), world.scene);
+  require(std::array{false, true}[Dim - 2] || (setup.next.height == 0.0 && setup.next.stand != NextOptions::Stand::ground), "a plane has no heights",
+          "--height");
+  Scenario scenario = with_settings(
+      world.scenario,
+      [&] {
+        std::vector<Setting> own;
+        for (const Setting& setting : request.settings)
+          if (!setting.name.starts_with("next.") && !setting.name.starts_with("measured.")) own.push_back(setting);
+        return own;
+      }(),
+      world.scene);
   must_see(scenario, setup.next.must_see, 2 * Dim);
   const ScanLog<Dim> log = ScanLog<Dim>::open_to_read(request.folder / run_file::kScanLog);
   require(log.size() > 0, "the run has no scans yet", request.folder.string());
@@ -171,7 +178,8 @@ std::string place_text(const Vec<3>& p) { return fmt::format("{:.2f}, {:.2f}, {:
 
 std::string input_line(const MeasuredInput& input) {
   const BinReport& r = input.report;
-  std::string out = fmt::format("{}: {} points ({}), taken at {} ({})", input.name, r.points, input.format, place_text(input.scan.origin), input.pose);
+  std::string out =
+      fmt::format("{}: {} points ({}), taken at {} ({})", input.name, r.points, input.format, place_text(input.scan.origin), input.pose);
   if (r.near > 0) out += fmt::format("; {} nearer than {:g} m left out", r.near, input.scan.pattern.min_range);
   if (r.far > 0) out += fmt::format("; {} beyond {:g} m left out", r.far, input.scan.pattern.max_range);
   if (input.not_finite > 0) out += fmt::format("; {} not finite left out", input.not_finite);
@@ -195,7 +203,8 @@ std::string no_return_note(std::span<const MeasuredInput> inputs, const Measured
   const auto share = [&](std::int64_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(std::max<std::int64_t>(all, 1)); };
   const bool free = options.no_return == MeasuredOptions::NoReturn::free;
   return fmt::format(
-      "Directions were binned every {:.3g} degrees. Those between elevations of {:.0f} and {:.0f} degrees that hit nothing ({:.1f} %) {}; {:.1f} % lie "
+      "Directions were binned every {:.3g} degrees. Those between elevations of {:.0f} and {:.0f} degrees that hit nothing ({:.1f} %) {}; {:.1f} % "
+      "lie "
       "between hits close by, on the surface between them; of the {:.1f} % outside nothing is known.",
       degrees(step), degrees(low), degrees(high), share(empty),
       free ? fmt::format("count as free up to {:g} m (--no-return unknown otherwise)", range) : "count as unknown", share(between), share(outside));
@@ -263,7 +272,8 @@ class MeasuredRun {
   /// Domain, lattice and tolerance, if nobody set them.
   void settle() {
     Scenario& scenario = setup_.scenario;
-    scene_.name = request_.folder.empty() ? fs::path(added_.front().name).stem().string() : fs::absolute(request_.folder / "x").parent_path().filename().string();
+    scene_.name = request_.folder.empty() ? fs::path(added_.front().name).stem().string()
+                                          : fs::absolute(request_.folder / "x").parent_path().filename().string();
     const Scan<3> first = scan(0);
     scene_.start = first.origin;
     scenario.scene = kMeasured;
@@ -374,7 +384,8 @@ class MeasuredRun {
       if (saved.is_object() && saved.contains("inputs") && saved["inputs"].is_array()) before = saved["inputs"];
     }
     for (const int k : kept_)
-      inputs.push_back(static_cast<std::size_t>(k) < before.size() ? before[static_cast<std::size_t>(k)] : Json({{"name", fmt::format("scan {}", k)}}));
+      inputs.push_back(static_cast<std::size_t>(k) < before.size() ? before[static_cast<std::size_t>(k)]
+                                                                   : Json({{"name", fmt::format("scan {}", k)}}));
     for (const MeasuredInput& input : added_)
       inputs.push_back({{"name", input.name},
                         {"format", input.format},
@@ -411,12 +422,13 @@ NextOutcome find_next(const NextRequest& given, Observer* observer) {
     request.folder = request.inputs.front();
     files = files.subspan(1);
   }
-  for (const fs::path& file : files) require(!fs::is_directory(file), exists ? "a folder: only files can be added to a run" : "a folder, and not a run", file.string());
+  for (const fs::path& file : files)
+    require(!fs::is_directory(file), exists ? "a folder: only files can be added to a run" : "a folder, and not a run", file.string());
   require(exists || request.remove.empty(), "--remove: only of a run folder");
   require(!files.empty() || (request.poses.list.empty() && request.poses.at.empty()), "--poses, --at: no scans are added");
   if (exists && !fs::exists(request.folder / run_file::kNextSettings)) {
-    require(files.empty() && request.remove.empty(), "a run of vantage explore: its scans are simulated, a person's cannot be added or taken out here",
-            request.folder.string());
+    require(files.empty() && request.remove.empty(),
+            "a run of vantage explore: its scans are simulated, a person's cannot be added or taken out here", request.folder.string());
     const World world = make_world((request.folder / run_file::kScenario).string(), {});
     return std::visit([&](const auto& scene) { return of_explored(request, world, scene, observer); }, world.scene);
   }

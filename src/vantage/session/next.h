@@ -22,16 +22,16 @@ struct NextRequest {
 };
 
 struct NextOutcome {
-  Json json;                         ///< next.json; interface.md has the names.
-  std::filesystem::path folder;      ///< What was written into; empty: nothing.
-  bool report = false;               ///< A report was written.
-  std::vector<std::string> notes;    ///< What was assumed, one sentence each.
-  std::vector<std::string> inputs;   ///< One line on each scan that was read now.
-  bool unreachable = false;          ///< Unseen space remains, and no place to scan it from.
+  Json json;                        ///< next.json; interface.md has the names.
+  std::filesystem::path folder;     ///< What was written into; empty: nothing.
+  bool report = false;              ///< A report was written.
+  std::vector<std::string> notes;   ///< What was assumed, one sentence each.
+  std::vector<std::string> inputs;  ///< One line on each scan that was read now.
+  bool unreachable = false;         ///< Unseen space remains, and no place to scan it from.
 };
 
-/// Where to scan next. Of a folder of explored scenes only next.json and next.csv are written; a folder of a person's scans is made anew from its log,
-/// which a scan is added to only after all went well. On bad input nothing is changed. Throws bad_input, io, memory.
+/// Where to scan next. Of a folder of explored scenes only next.json and next.csv are written; a folder of a person's scans is made anew from its
+/// log, which a scan is added to only after all went well. On bad input nothing is changed. Throws bad_input, io, memory.
 [[nodiscard]] NextOutcome find_next(const NextRequest& request, Observer* observer = nullptr);
 
 }  // namespace vantage

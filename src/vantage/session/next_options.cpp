@@ -35,6 +35,7 @@ std::vector<double>* list_of(NextOptions& options, std::string_view name) {
   if (name == "next.domain") return &options.domain;
   if (name == "next.keep_out") return &options.keep_out;
   if (name == "next.must_see") return &options.must_see;
+  if (name == "next.among") return &options.among;
   return name == "next.planned" ? &options.planned : nullptr;
 }
 
@@ -228,12 +229,13 @@ void check_lists(const NextOptions& options) {
   require(options.domain.size() <= 2 * Dim, "one box", "--domain");
   check(options.keep_out, 2 * Dim, "--keep-out");
   check(options.must_see, 2 * Dim, "--must-see");
+  check(options.among, Dim, "--among");
   check(options.planned, Dim, "--planned");
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                        \
-  template StationRule<D> station_rule<D>(const NextOptions&, double, bool, std::vector<std::string>&);               \
-  template std::vector<Vec<D>> places_of<D>(std::span<const double>);                                                 \
+#define VANTAGE_INSTANTIATE(D)                                                                          \
+  template StationRule<D> station_rule<D>(const NextOptions&, double, bool, std::vector<std::string>&); \
+  template std::vector<Vec<D>> places_of<D>(std::span<const double>);                                   \
   template void check_lists<D>(const NextOptions&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

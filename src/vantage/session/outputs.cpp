@@ -140,20 +140,21 @@ std::string short_name(const std::string& scene) {
 template <int Dim>
 void save_report(Folder& folder, const RunOutputs<Dim>& run, std::vector<std::vector<Vec<Dim>>> scan_points, std::vector<Patch<Dim>> patches,
                  Field<Dim, NodeState> state) {
-  const ReportInput<Dim> input{.scene = run.scene.name,
-                               .command = run.next == nullptr ? "vantage explore " + short_name(run.scenario.scene) : "vantage next " + run.scene.name,
-                               .settings = settings_table(run.scenario),
-                               .domain = run.scene.domain,
-                               .scan_points = std::move(scan_points),
-                               .patches = std::move(patches),
-                               .state = std::move(state),
-                               .path = run.explorer.path(),
-                               .steps = run.explorer.steps(),
-                               .snapshots = run.explorer.snapshots(),
-                               .verdict = verdict_of(run),
-                               .surface = run.explorer.surface().statistics(),
-                               .next = run.next == nullptr ? std::vector<RankedPlace<Dim>>() : run.next->ranked,
-                               .notes = run.next == nullptr ? std::vector<std::string>() : run.next->notes};
+  const ReportInput<Dim> input{
+      .scene = run.scene.name,
+      .command = run.next == nullptr ? "vantage explore " + short_name(run.scenario.scene) : "vantage next " + run.scene.name,
+      .settings = settings_table(run.scenario),
+      .domain = run.scene.domain,
+      .scan_points = std::move(scan_points),
+      .patches = std::move(patches),
+      .state = std::move(state),
+      .path = run.explorer.path(),
+      .steps = run.explorer.steps(),
+      .snapshots = run.explorer.snapshots(),
+      .verdict = verdict_of(run),
+      .surface = run.explorer.surface().statistics(),
+      .next = run.next == nullptr ? std::vector<RankedPlace<Dim>>() : run.next->ranked,
+      .notes = run.next == nullptr ? std::vector<std::string>() : run.next->notes};
   folder.write(run_file::kReport, render_report<Dim>(input));
 }
 

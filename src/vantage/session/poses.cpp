@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 #include "vantage/base/error.h"
@@ -93,9 +93,7 @@ bool has(const Layout& layout, int from, int count) {
   return true;
 }
 
-bool has_rotation(const Layout& layout) {
-  return has(layout, 0, 3) && has(layout, 4, 3) && has(layout, 8, 3);
-}
+bool has_rotation(const Layout& layout) { return has(layout, 0, 3) && has(layout, 4, 3) && has(layout, 8, 3); }
 
 /// The rotation nearest to a matrix that is one but for its digits.
 Eigen::Quaterniond rotation_of(const std::array<double, 16>& v, const std::string& where) {
@@ -155,11 +153,13 @@ std::vector<FilePose> parse_poses(std::string_view text, const std::string& wher
   const bool named = !header && !number_of(first.words[0]);
   const Layout layout = header ? from_header(first) : from_count(first.words.size(), named);
   const std::string place = fmt::format("{}:{}", where, first.number);
-  require(has(layout, 3, 1) && has(layout, 7, 1) && has(layout, 11, 1),
-          fmt::format("{} columns are no poses: x y z, x y z qw qx qy qz, t x y z qx qy qz qw (TUM) or a 3 x 4 matrix row by row (KITTI), or a header that names "
-                      "them (x,y,z,qw,qx,qy,qz)",
-                      first.words.size()),
-          place);
+  require(
+      has(layout, 3, 1) && has(layout, 7, 1) && has(layout, 11, 1),
+      fmt::format(
+          "{} columns are no poses: x y z, x y z qw qx qy qz, t x y z qx qy qz qw (TUM) or a 3 x 4 matrix row by row (KITTI), or a header that names "
+          "them (x,y,z,qw,qx,qy,qz)",
+          first.words.size()),
+      place);
   const auto turns = std::count_if(layout.begin(), layout.end(), [](int k) { return k >= 0 && k % 4 != 3 && k < kQuaternion; });
   const auto quaternion = std::count_if(layout.begin(), layout.end(), [](int k) { return k >= kQuaternion; });
   require((turns == 0 || has_rotation(layout)) && (quaternion == 0 || has(layout, kQuaternion, 4)), "the columns name a part of a rotation", place);

@@ -18,9 +18,9 @@ struct FilePose {
   std::optional<Eigen::Quaterniond> orientation;  ///< World from sensor, of unit length; none: only places are given.
 };
 
-/// A list of poses, one a line, numbers apart by commas or blanks; lines that begin with # and empty ones do not count. What the columns are is said by
-/// a header (x,y,z or tx,ty,tz; qw,qx,qy,qz; r00 .. r22; m00 .. m23; any other name: the name of the scan, if it comes first, else nothing) or else
-/// follows from their number:
+/// A list of poses, one a line, numbers apart by commas or blanks; lines that begin with # and empty ones do not count. What the columns are is said
+/// by a header (x,y,z or tx,ty,tz; qw,qx,qy,qz; r00 .. r22; m00 .. m23; any other name: the name of the scan, if it comes first, else nothing) or
+/// else follows from their number:
 ///
 ///     3   x y z                          8   t x y z qx qy qz qw (TUM)
 ///     4   name x y z                    12   3 x 4, row by row (KITTI)
