@@ -66,7 +66,7 @@ Answer<Dim> decide(const Explorer<Dim>& explorer, const NextOptions& options) {
   request.overlap = options.overlap;
   request.planned = places_of<Dim>(options.planned);
   request.among = places_of<Dim>(options.among);
-  if (!request.among.empty() && options.apart == 0.0) request.apart = 0.0;
+  if (!request.among.empty() && options.apart == 0.0) request.apart = 0.0;  // Somebody else has spread them.
   Answer<Dim> answer{explorer.rank(request), explorer.verdict()};
   Verdict<Dim>& verdict = answer.verdict;
   if (!answer.ranked.empty()) {
@@ -246,6 +246,7 @@ class MeasuredRun {
     const Answer<3> answer = decide(explorer, setup_.next);
     outcome_.json = answer_json(answer, explorer);
     outcome_.json["eta_m"] = options.surface.eta;
+    outcome_.json["domain"] = {to_json<3>(scene_.domain.low), to_json<3>(scene_.domain.high)};
     outcome_.json["notes"] = outcome_.notes;
     outcome_.unreachable = answer.ranked.empty() && !answer.verdict.complete;
     if (!request_.folder.empty()) save(explorer, answer);
