@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kBeyond = 1.5;      // Times the range of all but these: farther ones are left out.
 constexpr double kFarShare = 0.001;  // Of the points that may lie beyond the range: strays and mixed pixels.
 
 /// World axes from file axes, proper rotations all.
@@ -106,7 +107,8 @@ double range_of(std::span<const std::vector<Vec<3>>> clouds, std::span<const Pla
     for (const Vec<3>& p : clouds[k]) ranges.push_back((p - placed[k].pose.position).norm());
   const auto far = static_cast<std::ptrdiff_t>(kFarShare * static_cast<double>(ranges.size()));
   std::nth_element(ranges.begin(), ranges.end() - 1 - far, ranges.end());
-  return std::max(1.0, std::ceil(*(ranges.end() - 1 - far)));
+  const double most = kBeyond * *(ranges.end() - 1 - far);
+  return std::max(1.0, std::ceil(std::min(most, *std::max_element(ranges.begin(), ranges.end()))));
 }
 
 std::optional<RayOrder> order_of(const MeasuredScan& scan) {
@@ -124,7 +126,8 @@ void describe(MeasuredOptions& o, const OptionVisitor& visit) {
   visit("no_return", o.no_return, Choices{"free", "unknown"},
         "directions within the measured field of view that hit nothing: free up to the range, or nothing is known of them");
   visit("min_range", o.min_range, "m", Range{0.0, 1e4}, "nearer points are hits of the scanner's own stand and left out");
-  visit("range", o.range, "m", Range{0.0, 1e5}, "farther points are left out; 0: by the points, all but the farthest in a thousand");
+  visit("range", o.range, "m", Range{0.0, 1e5},
+        "farther points are left out; 0: by the points, half as far again as all but the farthest in a thousand lie");
   visit.angle("step_deg", o.step, Range{0.0, 30.0}, "angle between rays of the range image; 0: by the points");
 }
 
@@ -148,7 +151,7 @@ std::vector<MeasuredInput> read_measured(std::span<const fs::path> files, const 
     clouds.push_back(in_world(scan, places.back(), convert));
   }
   BinOptions bins{options.step, options.min_range, options.range, options.no_return == MeasuredOptions::NoReturn::free};
-  if (bins.max_range == 0.0) bins.max_range = range > 0.0 ? range : range_of(clouds, places);
+  if (bins.max_range == 0.0) bins.max_range = std::max(range, range_of(clouds, places));
   require(bins.min_range < bins.max_range, fmt::format("--min-range {:g}: must be less than the range, {:g} m", bins.min_range, bins.max_range));
   std::vector<MeasuredInput> inputs;
   for (std::size_t k = 0; k < scans.size(); ++k) {
