@@ -43,8 +43,8 @@ struct MeasuredInput {
 };
 
 /// All scans of the files (io/scan_file.h), in metres, z up, with the given poses or else those of the files. `range` is that of earlier scans; 0:
-/// there are none, it is made longer where the points reach farther, half as far again as all but the farthest in a thousand. Throws io, or bad_input: a malformed file, a plane scan, a scan
-/// without a pose, more or fewer poses than scans.
+/// there are none, it is made longer where the points reach farther, half as far again as all but the farthest in a thousand. Throws io, or
+/// bad_input: a malformed file, a plane scan, a scan without a pose, more or fewer poses than scans.
 [[nodiscard]] std::vector<MeasuredInput> read_measured(std::span<const std::filesystem::path> files, const GivenPoses& poses,
                                                        const MeasuredOptions& options, double range);
 
