@@ -13,6 +13,7 @@ int config_command(const Arguments& arguments);
 int explore_command(const Arguments& arguments);
 int info_command(const Arguments& arguments);
 int merge_command(const Arguments& arguments);
+int next_command(const Arguments& arguments);
 int paper_command(const Arguments& arguments);
 int publish_command(const Arguments& arguments);
 int reconstruct_command(const Arguments& arguments);
@@ -29,6 +30,7 @@ struct Command {
 /// In the order of `vantage --help`.
 inline constexpr Command kCommands[] = {
     {"explore", "SCENE", "scan, rebuild, find the next vantage point, go there, until done", explore_command},
+    {"next", "SCANS… | RUN", "where to put the scanner next, from a person's own scans", next_command},
     {"scan", "SCENE --at x,y,z -o FILE", "one simulated scan to a file", scan_command},
     {"reconstruct", "CLOUD… -o FILE", "surfaces with a certified error from point clouds", reconstruct_command},
     {"publish", "CLOUD… -o MAP", "scans as deltas of a compact map, to exchange with other vehicles", publish_command},

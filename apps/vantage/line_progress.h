@@ -8,8 +8,9 @@ class LineProgress final : public vantage::Observer {
   explicit LineProgress(bool quiet);
   ~LineProgress() override;
   void stage(std::string_view name) override;
+  void warn(std::string_view message) override;
   [[nodiscard]] bool stop_requested() override;
 
  private:
-  bool live_;
+  bool quiet_, live_;
 };

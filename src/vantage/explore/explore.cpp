@@ -72,6 +72,8 @@ struct Explorer<Dim>::Impl {
   std::vector<Snapshot<Dim>> snapshots;
   std::vector<Vec<Dim>> path, visited;
   Verdict<Dim> verdict;
+  StationRule<Dim> rule;
+  std::size_t travelled = 0;  // Corners of the path up to the last scan; the rest is the way to the proposed place.
   bool finished = false;
 
   static Grid<Dim> lattice(const Box<Dim>& domain, const Vec<Dim>& start, const ExploreOptions& options) {
@@ -122,6 +124,12 @@ struct Explorer<Dim>::Impl {
     const double eta = options.surface.eta;
 
     const Scan<Dim> scan = timed("scan", [&] { return sensor.scan(vantage_point, record.scan); });  // LIDAR(x_c)
+    if (!steps.empty() && scan.origin != decision.position) {                                       // Taken elsewhere than proposed: straight there.
+      path.resize(travelled);
+      if (path.empty()) path.push_back(visited.back());
+      path.push_back(scan.origin);
+      record.path_length = (scan.origin - visited.back()).norm();
+    }
     const Grid<Dim> near = window_of(scan);
     const SurfaceUpdate<Dim> update =
         timed("surface", [&] { return surface.insert(hit_points(scan), SurfaceSensor<Dim>{scan.origin, scan.pattern.step}); });  // Sec. IV-A
@@ -137,6 +145,7 @@ struct Explorer<Dim>::Impl {
     if (!planner) {
       planner.emplace(options.planner, scan.pattern.max_range, static_cast<std::uint64_t>(options.seed));
       planner->know_surface([this] { return surface.patches(); });
+      planner->set_rule(rule);
     }
     record.seen_volume = belief.seen_volume();
     record.new_volume = std::max(0.0, record.seen_volume - seen_before);
@@ -153,6 +162,7 @@ struct Explorer<Dim>::Impl {
     record.candidates = decision.candidates;
     record.seen_fraction = verdict.seen_fraction;
     visited.push_back(scan.origin);
+    travelled = path.size();
     path.insert(path.end(), decision.found ? decision.path.begin() : decision.path.end(), decision.path.end());
     if (!decision.found && path.empty()) path.push_back(scan.origin);
     steps.push_back(record);
@@ -239,6 +249,24 @@ template <int Dim>
   requires SpatialDim<Dim>
 const StepRecord<Dim>& Explorer<Dim>::step() {
   return impl_->step();
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+void Explorer<Dim>::set_rule(StationRule<Dim> rule) {
+  impl_->rule = std::move(rule);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::vector<RankedPlace<Dim>> Explorer<Dim>::rank(const RankRequest<Dim>& request) const {
+  return impl_->planner->rank(impl_->belief.view(), request);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+BeliefView<Dim> Explorer<Dim>::view() const {
+  return impl_->belief.view();
 }
 
 template <int Dim>

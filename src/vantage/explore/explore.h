@@ -5,7 +5,7 @@
 
 #include "vantage/base/progress.h"
 #include "vantage/explore/record.h"
-#include "vantage/planner/planner_options.h"
+#include "vantage/planner/planner.h"
 #include "vantage/scan/scan.h"
 #include "vantage/surface/surface.h"
 #include "vantage/visibility/visibility.h"
@@ -37,11 +37,18 @@ class Explorer {
   Explorer(Sensor<Dim>& sensor, const Box<Dim>& domain, const Vec<Dim>& start, const ExploreOptions& options, Observer* observer = nullptr);
   ~Explorer();
 
+  /// Where a scanner may be put; before the first step.
+  void set_rule(StationRule<Dim> rule);
+
   /// One turn: scan, rebuild, see, unite, choose. Call while !finished().
   const StepRecord<Dim>& step();
   [[nodiscard]] bool finished() const;
   /// Why it ended, or how it stands.
   [[nodiscard]] Verdict<Dim> verdict() const;
+
+  /// The best places to scan from next (Planner::rank), after a step.
+  [[nodiscard]] std::vector<RankedPlace<Dim>> rank(const RankRequest<Dim>& request) const;
+  [[nodiscard]] BeliefView<Dim> view() const;
 
   [[nodiscard]] const Grid<Dim>& window() const;  ///< Over the whole domain.
   [[nodiscard]] const std::vector<StepRecord<Dim>>& steps() const;

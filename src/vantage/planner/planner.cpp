@@ -98,7 +98,40 @@ Planner<Dim>::Planner(const PlannerOptions& options, double max_range, std::uint
 template <int Dim>
   requires SpatialDim<Dim>
 RayMarch<Dim> Planner<Dim>::rays(const BeliefView<Dim>& view) const {
-  return RayMarch<Dim>(view, opening_.openness(), {opacity_, max_range_, options_.tau_power, weight_.values.empty() ? nullptr : &weight_, &grid_});
+  return rays(view, weight_.values.empty() ? nullptr : &weight_);
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+RayMarch<Dim> Planner<Dim>::rays(const BeliefView<Dim>& view, const Field<Dim>* weight) const {
+  return RayMarch<Dim>(view, opening_.openness(), {opacity_, max_range_, options_.tau_power, weight, &grid_});
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::vector<std::size_t> Planner<Dim>::candidates(const BeliefView<Dim>& view) const {
+  if (!rule_.all) return medial_nodes<Dim>(view, reachable_, visited_, options_);
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < reachable_.values.size(); ++i) {
+    const Vec<Dim> p = view.window().position(i);
+    const auto near = [&](const Vec<Dim>& v) { return (p - v).norm() < 2.0 * view.window().spacing; };
+    if (reachable_[i] != 0 && std::none_of(visited_.begin(), visited_.end(), near)) nodes.push_back(i);
+  }
+  return nodes;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::vector<Vec<Dim>> Planner<Dim>::path_to(std::size_t node, const Vec<Dim>& here) const {
+  if (!rule_.places) return safe_path(reachable_, node, here);
+  // By a rule we may stand off the places ourselves: first to the nearest of them.
+  const Grid<Dim>& grid = reachable_.window;
+  std::size_t home = node;
+  for (std::size_t i = 0; i < reachable_.values.size(); ++i)
+    if (reachable_[i] != 0 && (grid.position(i) - here).squaredNorm() < (grid.position(home) - here).squaredNorm()) home = i;
+  std::vector<Vec<Dim>> path = safe_path(reachable_, node, grid.position(home));
+  path.insert(path.begin(), here);
+  return path;
 }
 
 template <int Dim>
@@ -234,13 +267,13 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   grid_ = std::move(grid);
   opening_.update(view, here, max_range_, &grid_);
   opacity_ = options_.lambda_factor * measured_opacity(view);
-  reachable_ = reachable_nodes(view, here, options_.clearance);
+  reachable_ = rule_.places ? rule_.places(view, here) : reachable_nodes(view, here, options_.clearance);
 
   auto seen_volume = static_cast<double>(seen_nodes(view));
   for (int a = 0; a < Dim; ++a) seen_volume *= view.window().spacing;
   idle_ = new_volume < 1e-5 * seen_volume ? idle_ + 1 : 0;
 
-  const std::vector<std::size_t> medial = medial_nodes<Dim>(view, reachable_, visited_, options_);
+  const std::vector<std::size_t> medial = candidates(view);
   const std::size_t limit = static_cast<std::size_t>(options_.candidates) * (4 - Dim);
   const std::uint64_t turn = seed_ * 7919 + visited_.size();
   const std::vector<std::size_t> nodes = choose_candidates<Dim>(medial, opening_.faces(), rays(view), view.window(), limit, turn);
@@ -252,6 +285,7 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   Decision<Dim> decision;
   decision.candidates = static_cast<std::int64_t>(scored.size());
   for (const Scored& s : scored) decision.scored.emplace_back(s.node, static_cast<float>(s.score));
+  last_.clear();
   if (!scored.empty()) {
     // Ties go to the nearer, then to the smaller index.
     const Scored& best = *std::min_element(scored.begin(), scored.end(), [&](const Scored& a, const Scored& b) {
@@ -263,7 +297,10 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
     decision.score = best.score;
     decision.area = best.sums.area;
     for (const Scored& s : scored) decision.expected_volume = std::max(decision.expected_volume, s.sums.volume);
-    decision.path = safe_path(reachable_, best.node, here);
+    decision.path = path_to(best.node, here);
+    last_.emplace_back(best.node, best.score);
+    for (const Scored& s : scored)
+      if (s.node != best.node) last_.emplace_back(s.node, s.score);
   }
   decision.end = end_of(decision, seen_volume);
   decision.found = decision.end == Decision<Dim>::End::none;

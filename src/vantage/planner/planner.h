@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,35 @@ struct Decision {
   std::vector<std::pair<std::size_t, float>> scored;  ///< Candidates (linear index) and their E.
 };
 
+/// Where a scanner may be put, if not wherever reachable_nodes() says: the nodes (1), given the belief and where we are.
+template <int Dim>
+struct StationRule {
+  std::function<Field<Dim, std::uint8_t>(const BeliefView<Dim>&, const Vec<Dim>& here)> places;
+  bool all = false;  ///< Every such node is a candidate (a layer above the ground has no medial axis); false: the medial ones.
+};
+
+/// What is wanted of a list of places to scan from.
+template <int Dim>
+struct RankRequest {
+  std::int64_t count = 5;
+  double apart = 0.0;                  ///< At least so far from each other and from `planned` [m].
+  double overlap = 0.0;                ///< Least share of known surface in what is in view, for registration [1].
+  std::vector<Vec<Dim>> planned = {};  ///< Stations already planned: what they will show is not counted again.
+  std::vector<Vec<Dim>> among = {};    ///< Only these places, wherever they are; empty: the candidates of the last decision.
+};
+
+/// A place to scan from, beside the others of a list.
+template <int Dim>
+struct RankedPlace {
+  Vec<Dim> position = Vec<Dim>::Zero();  ///< [m]
+  double score = 0.0;                    ///< E, what the better places and the planned ones will show discounted.
+  double new_volume = 0.0;               ///< Expected of it alone [m^Dim].
+  double added_volume = 0.0;             ///< The same without what the better places and the planned ones will show [m^Dim].
+  double new_area = 0.0;                 ///< Eq. (1) with line of sight: shadow boundary that faces it, in view [m^(Dim-1)].
+  double overlap = 0.0;                  ///< Share of known surface in what is in view [1].
+  std::vector<Vec<Dim>> path;            ///< From where we are [m].
+};
+
 /// Chooses vantage points by the visibility metric (paper Eq. 1, Sec. III-A). A function of the ordered scans: no hidden randomness.
 template <int Dim>
   requires SpatialDim<Dim>
@@ -44,6 +74,12 @@ class Planner {
   void know_surface(std::function<std::vector<Patch<Dim>>()> surface) { surface_ = std::move(surface); }
   /// Takes note of where a scan's rays went although the belief calls it unseen; after the scan was united with the belief, before assess().
   void note(const BeliefView<Dim>& view, const Scan<Dim>& scan) { glimpses_.note(view, scan); }
+  /// From now on only these places, and paths through them.
+  void set_rule(StationRule<Dim> rule) { rule_ = std::move(rule); }
+
+  /// The best places as of the last decision, best first: the first is the decision's own where nothing else is asked for; each next one is the best
+  /// when what those before it are expected to show counts no more. Places that would show less than stop_volume are left out.
+  [[nodiscard]] std::vector<RankedPlace<Dim>> rank(const BeliefView<Dim>& view, const RankRequest<Dim>& request) const;
 
   /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be. Baselines: the ray form.
   [[nodiscard]] std::vector<double> evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const;
@@ -67,6 +103,10 @@ class Planner {
   [[nodiscard]] double mix(const RaySums& sums) const;
   void set_scale(std::span<const Scored> scored);
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
+  [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view, const Field<Dim>* weight) const;
+  [[nodiscard]] std::vector<Vec<Dim>> path_to(std::size_t node, const Vec<Dim>& here) const;
+  [[nodiscard]] std::vector<Vec<Dim>> way_to(const Vec<Dim>& place) const;
+  [[nodiscard]] std::vector<std::size_t> candidates(const BeliefView<Dim>& view) const;
 
   PlannerOptions options_;
   double max_range_;
@@ -77,7 +117,9 @@ class Planner {
   MarchGrid<Dim> grid_;  // Of the last decision's belief.
   std::optional<LazyPool<Dim>> pool_;
   Field<Dim> weight_;  // w per node; empty: 1 everywhere.
-  RaySums scale_;      // Largest of each term over the candidates of the last decision.
+  StationRule<Dim> rule_;
+  std::vector<std::pair<std::size_t, double>> last_;  // Candidates of the last decision and their E, best first.
+  RaySums scale_;                                     // Largest of each term over the candidates of the last decision.
   double opacity_ = 0.0;
   std::function<std::vector<Patch<Dim>>()> surface_;
   LastLooks<Dim> looks_;

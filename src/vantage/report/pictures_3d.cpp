@@ -185,6 +185,39 @@ Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
   return figure;
 }
 
+/// The way to the best place, if any, and letters at all of them.
+std::string next_overlay(const ReportInput<3>& input, const Camera& camera) {
+  std::string tags;
+  for (std::size_t k = input.next.size(); k-- > 0;) {  // The best one on top.
+    const std::vector<Vec<3>> place{input.next[k].position};
+    for (const Vec<2>& pixel : on_picture<3>(place, camera)) tags += tag_overlay(pixel, std::string(1, static_cast<char>('A' + k % 26)));
+  }
+  return path_overlay(on_picture<3>(input.next.front().path, camera)) + tags;
+}
+
+/// A plan with the scans so far and the places to scan from next.
+Figure next_figure(const ReportInput<3>& input, const Box<3>& box) {
+  const Camera camera = Camera::map(box, map_frame(input.picture_width));
+  const double cut = plan_height(input), floor = height_range(input).first;
+  Raster raster(camera);
+  draw_plan(raster, input.patches, {input.domain, {floor - 1.0, floor}, Colours::clay}, {cut, 0.5 * input.state.window.spacing});
+  std::vector<Vec<3>> places;
+  std::vector<int> numbers;
+  for (const StepRecord<3>& step : input.steps) places.push_back(step.vantage), numbers.push_back(step.scan);
+  const RankedPlace<3>& best = input.next.front();
+  Figure figure{"next", "Where to scan next", {}, {}, {}};
+  figure.caption =
+      fmt::format("A, at {}, is the best place: it would show about {} that no scan has seen. The line is the way there from the last scan.",
+                  place_text<3>(best.position), quantity(best.new_volume, "m³"));
+  figure.legend = legend_entry("dot", "", "scan") + legend_entry("line", "", "way to A") + legend_entry("line", css(kSection), "wall at the cut");
+  figure.panels.push_back({resolved(raster, {0.0}),
+                           station_overlay(on_picture<3>(places, camera), numbers) + next_overlay(input, camera) +
+                               scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
+                           "Plan of the place with the scans so far and the places to scan from next.",
+                           {}});
+  return figure;
+}
+
 }  // namespace
 
 template <>
@@ -193,6 +226,7 @@ std::vector<Figure> pictures(const ReportInput<3>& input) {
   if (input.domain.empty()) return figures;
   const Box<3> box = contents(input);
   const Camera camera = bird(input, box);
+  if (!input.next.empty() && !input.steps.empty()) figures.push_back(next_figure(input, box));
   if (point_count(input) > 0) figures.push_back(points_figure(input, camera));
   if (!input.patches.empty()) figures.push_back(surface_figure(input, camera));
   if (input.state.window.size() > 0) figures.push_back(unseen_figure(input, camera));

@@ -11,8 +11,8 @@ namespace vantage {
 
 template <int Dim>
 std::string render_report(const ReportInput<Dim>& input) {
-  const std::string body = header_html(input) + "<main>\n" + figures_html(pictures(input)) + curves_html(input) + tables_html(input) +
-                           "</main>\n<footer>Made by vantage " + escaped(kVersion) +
+  const std::string body = header_html(input) + "<main>\n" + next_html(input) + figures_html(pictures(input)) + curves_html(input) +
+                           tables_html(input) + "</main>\n<footer>Made by vantage " + escaped(kVersion) +
                            ". Lengths in metres; the first axis points right on maps, the second up.</footer>\n";
   return page(input.scene + " – exploration report", body);
 }

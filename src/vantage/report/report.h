@@ -7,6 +7,7 @@
 #include "vantage/explore/record.h"
 #include "vantage/field/field.h"
 #include "vantage/geometry/patch.h"
+#include "vantage/planner/planner.h"
 #include "vantage/surface/surface.h"
 
 namespace vantage {
@@ -26,7 +27,9 @@ struct ReportInput {
   std::vector<Snapshot<Dim>> snapshots;
   Verdict<Dim> verdict;
   SurfaceStatistics surface;
-  int picture_width = 1400;  ///< Of the large pictures [pixels].
+  std::vector<RankedPlace<Dim>> next = {};  ///< Places to scan from next, best first; of a person's scans.
+  std::vector<std::string> notes = {};      ///< What was assumed of them.
+  int picture_width = 1400;                 ///< Of the large pictures [pixels].
 };
 
 /// One self-contained HTML page (no network, pictures inline).

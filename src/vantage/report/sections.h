@@ -12,6 +12,9 @@ template <int Dim>
 /// Curves over the scans: seen share, new volume, max E, way.
 template <int Dim>
 [[nodiscard]] std::string curves_html(const ReportInput<Dim>& input);
+/// The places to scan from next and what was assumed; nothing if the input has neither.
+template <int Dim>
+[[nodiscard]] std::string next_html(const ReportInput<Dim>& input);
 /// What stays unseen, the steps, the settings and the command.
 template <int Dim>
 [[nodiscard]] std::string tables_html(const ReportInput<Dim>& input);

@@ -165,6 +165,35 @@ std::string tables_html(const ReportInput<Dim>& input) {
   return html + "</section>\n";
 }
 
+template <int Dim>
+std::string next_html(const ReportInput<Dim>& input) {
+  std::string html;
+  if (!input.next.empty()) {
+    html += "<section id=\"next-places\"><h2>Where to scan next</h2>\n";
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t k = 0; k < input.next.size(); ++k) {
+      const RankedPlace<Dim>& place = input.next[k];
+      double way = 0.0;
+      for (std::size_t i = 1; i < place.path.size(); ++i) way += (place.path[i] - place.path[i - 1]).norm();
+      rows.push_back({std::string(1, static_cast<char>('A' + k % 26)), escaped(place_text<Dim>(place.position)),
+                      quantity(place.new_volume, volume_unit<Dim>()), quantity(place.added_volume, volume_unit<Dim>()), percent(place.overlap),
+                      quantity(way, "m")});
+    }
+    const std::string word(volume_word<Dim>());
+    html += table({"", "Place", ">New " + word, ">Beyond the better ones", ">Known in view", ">Way"}, rows);
+    html += "<p class=\"note\">Best first. New " + word +
+            " is what the place is expected to show; the next column leaves out what the places above it will have shown. Known in view: the share "
+            "of known "
+            "surface in what is seen from there, to register the scan by.</p>\n</section>\n";
+  }
+  if (input.notes.empty()) return html;
+  html += "<section id=\"notes\"><h2>What was assumed</h2>\n<ul>\n";
+  for (const std::string& note : input.notes) html += "<li>" + escaped(note) + "</li>\n";
+  return html + "</ul></section>\n";
+}
+
+template std::string next_html(const ReportInput<2>&);
+template std::string next_html(const ReportInput<3>&);
 template std::string curves_html(const ReportInput<2>&);
 template std::string curves_html(const ReportInput<3>&);
 template std::string tables_html(const ReportInput<2>&);

@@ -61,6 +61,7 @@ std::vector<Vec<Dim>> directions(const ScanPattern& pattern) {
 
 template <int Dim>
 std::vector<Vec<Dim>> hit_points(const Scan<Dim>& scan) {
+  if (!scan.points.empty()) return scan.points;
   const std::vector<Vec<Dim>> rays = directions<Dim>(scan.pattern);
   std::vector<Vec<Dim>> points;
   for (std::size_t i = 0; i < rays.size(); ++i)

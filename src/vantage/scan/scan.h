@@ -43,6 +43,8 @@ struct Scan {
   Eigen::Matrix<double, Dim, Dim> world_from_sensor = Eigen::Matrix<double, Dim, Dim>::Identity();  ///< Rotation.
   ScanPattern pattern;
   std::vector<float> ranges;  ///< (columns, rows), rows fastest [m].
+  /// The points of a person's scan as they were measured, when the ranges are an image made from them (bin_points.h), (N, Dim) [m]. Else empty.
+  std::vector<Vec<Dim>> points;
 
   [[nodiscard]] float range(int column, int row) const { return ranges[static_cast<std::size_t>(column * pattern.rows<Dim>() + row)]; }
 };
@@ -51,7 +53,7 @@ struct Scan {
 template <int Dim>
 [[nodiscard]] std::vector<Vec<Dim>> directions(const ScanPattern& pattern);
 
-/// World positions of the hits, in the order of the rays, (hits, Dim) [m].
+/// World positions of the hits, in the order of the rays, or the measured points if the scan keeps them, (hits, Dim) [m].
 template <int Dim>
 [[nodiscard]] std::vector<Vec<Dim>> hit_points(const Scan<Dim>& scan);
 

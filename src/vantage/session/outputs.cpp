@@ -120,6 +120,11 @@ std::uint32_t mesh_checksum(const Mesh<Dim>& mesh) {
   return sum;
 }
 
+template <int Dim>
+Verdict<Dim> verdict_of(const RunOutputs<Dim>& run) {
+  return run.next == nullptr ? run.explorer.verdict() : run.next->verdict;
+}
+
 /// The scene without the folders of its files.
 std::string short_name(const std::string& scene) {
   std::string out;
@@ -135,18 +140,21 @@ std::string short_name(const std::string& scene) {
 template <int Dim>
 void save_report(Folder& folder, const RunOutputs<Dim>& run, std::vector<std::vector<Vec<Dim>>> scan_points, std::vector<Patch<Dim>> patches,
                  Field<Dim, NodeState> state) {
-  const ReportInput<Dim> input{.scene = run.scene.name,
-                               .command = "vantage explore " + short_name(run.scenario.scene),
-                               .settings = settings_table(run.scenario),
-                               .domain = run.scene.domain,
-                               .scan_points = std::move(scan_points),
-                               .patches = std::move(patches),
-                               .state = std::move(state),
-                               .path = run.explorer.path(),
-                               .steps = run.explorer.steps(),
-                               .snapshots = run.explorer.snapshots(),
-                               .verdict = run.explorer.verdict(),
-                               .surface = run.explorer.surface().statistics()};
+  const ReportInput<Dim> input{
+      .scene = run.scene.name,
+      .command = run.next == nullptr ? "vantage explore " + short_name(run.scenario.scene) : "vantage next " + run.scene.name,
+      .settings = settings_table(run.scenario),
+      .domain = run.scene.domain,
+      .scan_points = std::move(scan_points),
+      .patches = std::move(patches),
+      .state = std::move(state),
+      .path = run.explorer.path(),
+      .steps = run.explorer.steps(),
+      .snapshots = run.explorer.snapshots(),
+      .verdict = verdict_of(run),
+      .surface = run.explorer.surface().statistics(),
+      .next = run.next == nullptr ? std::vector<RankedPlace<Dim>>() : run.next->ranked,
+      .notes = run.next == nullptr ? std::vector<std::string>() : run.next->notes};
   folder.write(run_file::kReport, render_report<Dim>(input));
 }
 
@@ -164,7 +172,7 @@ Json result_json(const RunOutputs<Dim>& run) {
           {"dim", Dim},
           {"scans", run.explorer.steps().size()},
           {"path_m", path},
-          {"verdict", to_json(run.explorer.verdict())},
+          {"verdict", to_json(verdict_of(run))},
           {"steps", steps},
           {"surface", to_json(run.explorer.surface().statistics())}};
 }
@@ -196,6 +204,7 @@ void save_outputs(const fs::path& path, const RunOutputs<Dim>& run, Observer* ob
   stage("report");
   save_report(folder, run, std::move(points), std::move(patches), std::move(state));
   Json manifest = manifest_json(run.scenario, run.scene);
+  if (run.next != nullptr) manifest["inputs"] = run.next->inputs;
   manifest["outputs"] = folder.checksums();
   folder.write(run_file::kManifest, as_text(manifest));
 }

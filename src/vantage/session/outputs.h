@@ -10,6 +10,15 @@
 
 namespace vantage {
 
+/// What `vantage next` adds to a run of a person's scans.
+template <int Dim>
+struct NextFigures {
+  std::vector<RankedPlace<Dim>> ranked;
+  Verdict<Dim> verdict;
+  std::vector<std::string> notes;  ///< What was assumed.
+  Json inputs;                     ///< Files of the scans, for the manifest.
+};
+
 /// What the outputs of a run are made from.
 template <int Dim>
 struct RunOutputs {
@@ -17,6 +26,7 @@ struct RunOutputs {
   const Scene<Dim>& scene;
   const Explorer<Dim>& explorer;
   const ScanLog<Dim>& log;
+  const NextFigures<Dim>* next = nullptr;  ///< Of a person's scans; none: explored.
 };
 
 /// `result.json`.

@@ -21,6 +21,9 @@ inline constexpr const char* kSteps = "steps.csv";
 inline constexpr const char* kReport = "report.html";
 inline constexpr const char* kTiming = "timing.json";
 inline constexpr const char* kResult = "result.json";
+inline constexpr const char* kNext = "next.json";
+inline constexpr const char* kNextTable = "next.csv";
+inline constexpr const char* kNextSettings = "next.toml";  ///< Of a person's scans only.
 }  // namespace run_file
 
 /// What to do with a run folder that is there already: refuse, make a new run in its place, or go on with it.

@@ -60,6 +60,10 @@ std::string payload_bytes(const Scan<Dim>& scan, int index) {
   for (const double value : {p.step, p.horizontal_fov, p.vertical_fov, p.min_range, p.max_range}) put<double>(out, value);
   put<std::uint64_t>(out, scan.ranges.size());
   for (const float range : scan.ranges) put<float>(out, range);
+  if (scan.points.empty()) return out;
+  put<std::uint64_t>(out, scan.points.size());
+  for (const Vec<Dim>& p : scan.points)
+    for (int a = 0; a < Dim; ++a) put<double>(out, p[a]);
   return out;
 }
 
@@ -89,6 +93,19 @@ class Reader {
   std::size_t offset_ = 0;
 };
 
+/// The measured points at the end of a payload that has `numbers` coordinates left after their count.
+template <int Dim>
+std::string parse_points(Reader& reader, std::uint64_t numbers, Scan<Dim>& scan) {
+  const auto count = reader.take<std::uint64_t>();
+  if (numbers % Dim != 0 || count != numbers / Dim) return fmt::format("{} numbers are not {} points", numbers, count);
+  scan.points.resize(count);
+  for (Vec<Dim>& p : scan.points) {
+    for (int a = 0; a < Dim; ++a) p[a] = reader.take<double>();
+    if (!p.allFinite()) return "a point is not finite";
+  }
+  return {};
+}
+
 /// A scan out of its payload, or the reason why it is none.
 template <int Dim>
 std::string parse_payload(std::string_view bytes, int index, Scan<Dim>& scan) {
@@ -110,11 +127,13 @@ std::string parse_payload(std::string_view bytes, int index, Scan<Dim>& scan) {
   const auto rays = reader.take<std::uint64_t>();
   if (rays != static_cast<std::uint64_t>(p.columns()) * static_cast<std::uint64_t>(p.rows<Dim>()))
     return fmt::format("{} rays: the pattern has {} x {}", rays, p.columns(), p.rows<Dim>());
-  if (bytes.size() != payload_head_bytes(Dim) + 4 * rays) return fmt::format("{} bytes do not hold {} rays", bytes.size(), rays);
+  const std::uint64_t image = payload_head_bytes(Dim) + 4 * rays;
+  if (bytes.size() < image || (bytes.size() > image && bytes.size() < image + 8))
+    return fmt::format("{} bytes do not hold {} rays", bytes.size(), rays);
   scan.ranges.resize(rays);
   for (float& range : scan.ranges) range = reader.take<float>();
   if (std::any_of(scan.ranges.begin(), scan.ranges.end(), [](float range) { return range < 0.0F; })) return "a range is negative";
-  return {};
+  return bytes.size() == image ? std::string() : parse_points<Dim>(reader, (bytes.size() - image - 8) / 8, scan);
 }
 
 std::string read_at(int file, const std::filesystem::path& path, std::uint64_t offset, std::size_t length) {

@@ -16,7 +16,8 @@ namespace vantage {
 ///     header   "VANTSCAN", u32 version, u32 dimension
 ///     record   "SCAN", u32 bytes of the payload, u32 CRC-32 of the payload, u32 CRC-32 of these first 12 bytes, payload
 ///     payload  u32 index, Dim x f64 origin, Dim x Dim x f64 rotation (row by row), 5 x f64 pattern (step, horizontal and vertical field of
-///              view [rad], min and max range [m]), u64 rays, rays x f32 range [m] (infinity: no return, NaN: no data)
+///              view [rad], min and max range [m]), u64 rays, rays x f32 range [m] (infinity: no return, NaN: no data);
+///              of a scan that keeps its measured points also u64 points, points x Dim x f64 [m]
 ///
 /// all little-endian, records back to back. A scan is acknowledged only once it is on the disk. One process at a time may hold it open.
 template <int Dim>

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+
+#include "vantage/field/belief_view.h"
+
+namespace vantage {
+
+/// Who carries the scanner over the ground. The last axis points up.
+struct GroundOptions {
+  double height = 1.5;     ///< Of the scanner above the ground [m].
+  double clearance = 0.5;  ///< Of the scanner to known surfaces; below it that of the height if this is less [m].
+  double step = 0.2;       ///< Highest step up or down [m].
+  double slope = 0.6;      ///< Steepest slope, its tangent [1].
+};
+
+/// Nodes a scanner on legs may be put at: seen, at `height` (to within a cell) above known ground, all below it seen and free, at `clearance` from
+/// the known surfaces, and joined to the ground nearest to `from` over slopes and steps that can be walked (1, else 0). None if no ground is known
+/// within 6 m or twice the height of `from`, whichever is more. The ground is where an obstacle node lies below a seen one; its height is good to a
+/// small part of a cell, by the distance to the known surface.
+template <int Dim>
+[[nodiscard]] Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options);
+
+/// Height of `from` above the known ground straight below it or, where that was not seen, the median over the columns within `reach`; infinity if
+/// there is none [m].
+template <int Dim>
+[[nodiscard]] double height_above_ground(const BeliefView<Dim>& view, const Vec<Dim>& from, double reach);
+
+}  // namespace vantage
