@@ -225,8 +225,8 @@ class Builder {
     rooms_.push_back({middle, middle});
   }
 
-  /// A place in one of the rooms with a cell more than the clearance round it, or with less, down to the clearance, if there is none; nothing there is
-  /// solid.
+  /// A place in one of the rooms with a cell more than the clearance round it, or with less, down to the clearance, if there is none; nothing there
+  /// is solid.
   Vec<Dim> start(const Mesh<Dim>& mesh, const Placement<Dim>& place) {
     const RayCaster<Dim> caster(mesh);
     double room = kClearance + kCell;

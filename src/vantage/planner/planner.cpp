@@ -325,7 +325,7 @@ void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decisi
     decision.found = true;
     decision.end = Decision<Dim>::End::none;
     decision.position = view.window().position(*last_look_.place);
-    decision.path = safe_path(reachable_, *last_look_.place, visited_.back());
+    decision.path = path_to(*last_look_.place, visited_.back());
     return;
   }
   const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);

@@ -62,8 +62,8 @@ std::string payload_bytes(const Scan<Dim>& scan, int index) {
   for (const float range : scan.ranges) put<float>(out, range);
   if (scan.points.empty()) return out;
   put<std::uint64_t>(out, scan.points.size());
-  for (const Vec<Dim>& p : scan.points)
-    for (int a = 0; a < Dim; ++a) put<double>(out, p[a]);
+  for (const Vec<Dim>& point : scan.points)
+    for (int a = 0; a < Dim; ++a) put<double>(out, point[a]);
   return out;
 }
 
