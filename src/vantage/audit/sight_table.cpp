@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "vantage/audit/draw.h"
 #include "vantage/base/parallel.h"
 
 namespace vantage {
@@ -13,17 +14,6 @@ using Bits = std::vector<std::uint64_t>;
 std::size_t words(std::size_t bits) { return (bits + 63) / 64; }
 void set(Bits& row, std::size_t column) { row[column / 64] |= std::uint64_t{1} << (column % 64); }
 void clear(Bits& row, std::size_t column) { row[column / 64] &= ~(std::uint64_t{1} << (column % 64)); }
-
-/// `count` of `all`, in their order, one drawn from each of as many equal stretches; all of them if there are no more.
-std::vector<std::size_t> draw(const std::vector<std::size_t>& all, std::size_t count, Random& random) {
-  if (all.size() <= count) return all;
-  std::vector<std::size_t> drawn;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t begin = k * all.size() / count, end = (k + 1) * all.size() / count;
-    drawn.push_back(all[begin + random.below(end - begin)]);
-  }
-  return drawn;
-}
 
 template <int Dim, class Predicate>
 std::vector<std::size_t> nodes_where(const Reference<Dim>& reference, Predicate&& predicate) {
