@@ -205,7 +205,7 @@ Figure next_figure(const ReportInput<3>& input, const Box<3>& box) {
   std::vector<int> numbers;
   for (const StepRecord<3>& step : input.steps) places.push_back(step.vantage), numbers.push_back(step.scan);
   const RankedPlace<3>& best = input.next.front();
-  Figure figure{"next", "Where to scan next", {}, {}, {}};
+  Figure figure{"next", "The next places on the map", {}, {}, {}};
   figure.caption =
       fmt::format("A, at {}, is the best place: it would show about {} that no scan has seen. The line is the way there from the last scan.",
                   place_text<3>(best.position), quantity(best.new_volume, "m³"));
