@@ -76,6 +76,18 @@ void take(const std::string& option, const std::string& text, std::int64_t low, 
   if (!text.empty()) value = whole_number(option, text, low, high);
 }
 
+std::vector<Setting> settings_of(const Flags& flags) {
+  std::vector<Setting> settings;
+  for (const std::string& set : flags.sets) {
+    const std::size_t equals = set.find('=');
+    require(equals != std::string::npos && equals > 0, set + ": must be stage.option=value", "--set");
+    settings.push_back({set.substr(0, equals), set.substr(equals + 1), "--set"});
+  }
+  if (!flags.voxel.empty()) settings.push_back({"explore.voxel", flags.voxel, "--voxel"});
+  if (!flags.step.empty()) settings.push_back({"sensor.step_deg", flags.step, "--step-deg"});
+  return settings;
+}
+
 AuditPlan plan_of(const Flags& flags, bool run) {
   AuditPlan plan;
   plan.scenes = flags.places;
@@ -98,13 +110,7 @@ AuditPlan plan_of(const Flags& flags, bool run) {
     require(cap.size() == 1 && cap[0] >= 1.0 && cap[0] <= 1000.0, flags.cap + ": must be a number, 1 .. 1000", "--cap");
     plan.cap = cap[0];
   }
-  for (const std::string& set : flags.sets) {
-    const std::size_t equals = set.find('=');
-    require(equals != std::string::npos && equals > 0, set + ": must be stage.option=value", "--set");
-    plan.settings.push_back({set.substr(0, equals), set.substr(equals + 1), "--set"});
-  }
-  if (!flags.voxel.empty()) plan.settings.push_back({"explore.voxel", flags.voxel, "--voxel"});
-  if (!flags.step.empty()) plan.settings.push_back({"sensor.step_deg", flags.step, "--step-deg"});
+  plan.settings = settings_of(flags);
   return plan;
 }
 
@@ -147,6 +153,7 @@ int play_small_scenes(const Flags& flags) {
   GeneratedPlan plan;
   plan.kinds = kinds_of(flags.kinds);
   plan.folder = flags.folder;
+  plan.settings = settings_of(flags);
   take("--generated", flags.generated, 1, 100'000'000, plan.count);
   take("--seed", flags.seed, 0, 1'000'000'000, plan.seed);
   AuditProgress progress(flags.quiet);

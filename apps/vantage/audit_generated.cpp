@@ -48,7 +48,7 @@ std::vector<Json> kept(const GeneratedPlan& plan, const Json& what) {
   std::ifstream stream(file);
   const Json json = Json::parse(stream, nullptr, false);
   require(json.is_object() && json.contains("runs"), "is not a file of generated scenes", file.string());
-  require(json.at("what") == what, "holds scenes of another seed or other kinds: take another folder", file.string());
+  require(json.at("what") == what, "holds scenes of another seed, other kinds or options: take another folder", file.string());
   return json.at("runs").get<std::vector<Json>>();
 }
 
@@ -114,6 +114,14 @@ void keep(const GeneratedPlan& plan, Json json, const std::vector<Json>& runs) {
   write_file(plan.folder / kFile, as_text(json));
 }
 
+TrialOptions adjust_by(const std::vector<Setting>& settings, const TrialOptions& options) {
+  Scenario scenario;
+  scenario.explore = options.explore;
+  scenario.sensor = options.lidar;
+  for (const Setting& setting : settings) apply(scenario, setting);
+  return {scenario.explore, scenario.sensor};
+}
+
 /// Passes the wish to stop on, from any thread.
 class Quiet final : public Observer {
  public:
@@ -147,6 +155,8 @@ std::vector<std::pair<SmallKind, int>> kinds_of(const std::string& list) {
 GeneratedOutcome play_generated(const GeneratedPlan& plan, AuditProgress& progress, const std::function<void(const Json&)>& each) {
   Json what{{"seed", plan.seed}, {"kinds", Json::array()}};
   for (const auto& [kind, dim] : plan.kinds) what["kinds"].push_back(name_of(kind, dim));
+  for (const Setting& setting : plan.settings) what["set"].push_back(setting.name + "=" + setting.value);
+  adjust_by(plan.settings, TrialOptions{});  // Wrong names are found before anything is played.
   std::vector<Json> runs = kept(plan, what);
   runs.resize(std::min(runs.size(), static_cast<std::size_t>(plan.count)));
   progress.expect(plan.count);
@@ -163,7 +173,7 @@ GeneratedOutcome play_generated(const GeneratedPlan& plan, AuditProgress& progre
       parallel_for(batch.size(), 1, [&](std::size_t k) {
         Quiet quiet;
         const SmallScene scene = plan.scene(first + static_cast<std::int64_t>(k));
-        batch[k] = to_json(scene, play_to_end(scene, &quiet));
+        batch[k] = to_json(scene, play_to_end(scene, [&](TrialOptions& options) { options = adjust_by(plan.settings, options); }, &quiet));
       });
     } catch (const Error& error) {
       if (error.code() != ErrorCode::interrupted) throw;
@@ -212,8 +222,10 @@ std::string generated_text(const Json& json) {
   };
   for (const auto& [name, sums] : json.at("kinds").items()) line(name, sums);
   line("all", json.at("all"));
+  std::string options;
+  for (const Json& set : json.at("what").value("set", Json::array())) options += " --set " + set.get<std::string>();
   for (const Json& failure : json.at("failures"))
-    out += fmt::format("vantage audit --generated 1 --kinds {} --seed {} -v\n", failure.at("kind").get<std::string>(),
-                       failure.at("seed").get<std::int64_t>());
+    out += fmt::format("vantage audit --generated 1 --kinds {} --seed {}{} -v\n", failure.at("kind").get<std::string>(),
+                       failure.at("seed").get<std::int64_t>(), options);
   return out;
 }

@@ -7,12 +7,14 @@
 #include "audit_progress.h"
 #include "vantage/audit/ending.h"
 #include "vantage/session/result.h"
+#include "vantage/session/scenario.h"
 
 /// Which small scenes are played to their ends.
 struct GeneratedPlan {
   std::int64_t count = 500, seed = 1;
   std::vector<std::pair<vantage::SmallKind, int>> kinds;  ///< With their dimensions.
   std::filesystem::path folder;                           ///< Keeps what is finished; empty: nothing is kept.
+  std::vector<vantage::Setting> settings;                 ///< Options of every run that are not as they stand.
   [[nodiscard]] vantage::SmallScene scene(std::int64_t number) const;
 };
 

@@ -99,9 +99,11 @@ ReferenceOptions reference_options(const TrialOptions& options) {
 }
 
 template <int Dim>
-Ending play_small(const SmallScene& name, Observer* observer) {
+Ending play_small(const SmallScene& name, const AdjustOptions& adjust, Observer* observer) {
   const Scene<Dim> scene = make_small_scene<Dim>(name.kind, name.seed);
-  return play_to_end(scene, small_options(scene), observer);
+  TrialOptions options = small_options(scene);
+  if (adjust) adjust(options);
+  return play_to_end(scene, options, observer);
 }
 
 }  // namespace
@@ -148,8 +150,8 @@ Ending play_to_end(const Scene<Dim>& scene, const TrialOptions& options, Observe
   return ending;
 }
 
-Ending play_to_end(const SmallScene& scene, Observer* observer) {
-  return scene.dim == 2 ? play_small<2>(scene, observer) : play_small<3>(scene, observer);
+Ending play_to_end(const SmallScene& scene, const AdjustOptions& adjust, Observer* observer) {
+  return scene.dim == 2 ? play_small<2>(scene, adjust, observer) : play_small<3>(scene, adjust, observer);
 }
 
 template TrialOptions small_options<2>(const Scene<2>&);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <functional>
 #include <string>
 
 #include "vantage/audit/small_scenes.h"
@@ -42,8 +43,12 @@ struct Ending {
 template <int Dim>
 [[nodiscard]] TrialOptions small_options(const Scene<Dim>& scene);
 
-/// Explores the scene to its end. An error of the explorer becomes part of the result; throws interrupted when the observer asks to stop.
-[[nodiscard]] Ending play_to_end(const SmallScene& scene, Observer* observer = nullptr);
+/// Changes the options of a run before it begins.
+using AdjustOptions = std::function<void(TrialOptions&)>;
+
+/// Explores the scene to its end, with small_options(), adjusted. An error of the explorer becomes part of the result; throws interrupted when the
+/// observer asks to stop.
+[[nodiscard]] Ending play_to_end(const SmallScene& scene, const AdjustOptions& adjust = {}, Observer* observer = nullptr);
 template <int Dim>
 [[nodiscard]] Ending play_to_end(const Scene<Dim>& scene, const TrialOptions& options, Observer* observer = nullptr);
 

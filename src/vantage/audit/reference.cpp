@@ -79,7 +79,7 @@ class Builder {
     block.first += low;
     block.extent = (grid().extent - low).cwiseMin(kBlock);
     const ReferenceOptions& o = reference_.options;
-    const double reach = std::max({o.clearance, o.eta, o.voxel}) + kTouch;
+    const double reach = std::max({o.clearance, o.eta + o.voxel}) + kTouch;
     const double radius = 0.5 * block.bounds().size().norm();
     const bool clear = caster_.distance(block.bounds().center(), reach + radius) >= reach + radius;
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -92,7 +92,7 @@ class Builder {
   void classify_node(Truth& truth, double distance) const {
     const ReferenceOptions& o = reference_.options;
     truth.near = distance <= std::max(o.eta, o.voxel);
-    truth.blurred = distance <= std::max(o.eta, 0.5 * std::sqrt(double{Dim}) * o.voxel);
+    truth.blurred = distance <= o.eta + 0.5 * std::sqrt(double{Dim}) * o.voxel;
     truth.tight = distance < o.clearance;
     truth.close = distance < grid().spacing + kTouch;
     truth.touching = distance < kTouch;
@@ -199,7 +199,22 @@ class Builder {
     return view ? static_cast<std::uint32_t>(*view) : kNone;
   }
 
+  /// Does a node of the runs' lattice at or beside this one stand clear of surfaces? If none does, no run can call it seen.
+  bool decided(std::size_t i) const {
+    const Index<Dim> at = grid().local(i), odd = (grid().first + at).unaryExpr([](std::int32_t v) { return v & 1; });
+    const Grid<Dim> beside{1.0, Index<Dim>(at - odd), Index<Dim>(odd.array() + 1)};  // One or two along each axis.
+    for (std::size_t k = 0; k < beside.size(); ++k) {
+      const Index<Dim> other = beside.first + 2 * beside.local(k);
+      if (grid().inside(other) && !reference_.nodes.at(other).blurred) return true;
+    }
+    return false;
+  }
+
   void count() {
+    std::vector<std::uint8_t> left_out(grid().size());
+    parallel_for(grid().size(), 4096, [&](std::size_t i) { left_out[i] = node(i).counts() && !decided(i); });
+    for (std::size_t i = 0; i < grid().size(); ++i)
+      if (left_out[i] != 0) node(i).near = true;
     for (const Truth& truth : reference_.nodes.values) reference_.counted += truth.counts() ? 1 : 0;
     require(reference_.counted > 0, fmt::format("audit: nothing visible lies farther than {} m from a surface", reference_.options.voxel));
   }

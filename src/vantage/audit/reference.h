@@ -16,8 +16,8 @@ struct Truth {
   bool inside : 1 = false;     ///< In the domain.
   bool reachable : 1 = false;  ///< One can stand there: clear of surfaces, and joined to the start by clear nodes.
   bool visible : 1 = false;    ///< From a reachable place within range; reachable nodes are.
-  bool near : 1 = false;       ///< Within max(eta, h) of a surface.
-  bool blurred : 1 = false;    ///< Within max(eta, sqrt(Dim)/2 h) of a surface: an explorer may take it for an obstacle.
+  bool near : 1 = false;       ///< Within max(eta, h) of a surface; of a visible node also: all nodes of the runs' lattice beside it are blurred.
+  bool blurred : 1 = false;    ///< Within sqrt(Dim)/2 h + eta of a surface: an explorer may take it for an obstacle.
   bool tight : 1 = false;      ///< Nearer to a surface than the clearance.
   bool close : 1 = false;      ///< Nearer to a surface than the node spacing: a step from here may be blocked.
   bool touching : 1 = false;   ///< On a surface.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
+#include "vantage/field/fast_marching.h"
 #include "vantage/planner/baselines.h"
 #include "vantage/planner/boundary_metric.h"
 #include "vantage/planner/candidates.h"
@@ -18,6 +20,8 @@
 
 namespace vantage {
 namespace {
+
+constexpr double kMatters = 0.005;  // Of the seen volume: a last look that may show so much is always taken.
 
 /// In 2D a quarter of the rays does, and twice the candidates are affordable (planner.md Sec. 3, 4).
 template <int Dim>
@@ -77,6 +81,11 @@ void describe(PlannerOptions& o, const OptionVisitor& visit) {
   visit("curvature", o.curvature, "", Range{0, 100}, "M h: candidates have -lap(psi) > M");
   visit("printed_curvature", o.printed_curvature, "candidates by lap(psi) > M, as printed");
   visit("clearance", o.clearance, "m", Range{0, 1e3}, "of a vantage point and of the path to known obstacles");
+  visit("travel_weight", o.travel_weight, "", Range{0, 4},
+        "p in E / (1 + walk / (speed x scan_time))^p, in quarters: 0 for few scans, 1 for little time, between for both");
+  visit("speed", o.speed, "m/s", Range{1e-3, 1e3}, "of travel, for travel_weight");
+  visit("scan_time", o.scan_time, "s", Range{1e-3, 1e6}, "of a scan with its set-up, for travel_weight");
+  visit("look_ahead", o.look_ahead, "candidates", Range{0, 1000}, "ray form: so many of the best are tried in pairs; 0: none, the best place itself");
   visit("stop_volume", o.stop_volume, "", Range{0, 1}, "stop when the expected new volume is below this share of the seen, twice in a row");
   visit("idle_limit", o.idle_limit, "scans", Range{1, 1e6}, "stop after so many in a row that gained nothing");
   visit("last_looks", o.last_looks, "scans", Range{0, 1e6},
@@ -93,6 +102,8 @@ Planner<Dim>::Planner(const PlannerOptions& options, double max_range, std::uint
       opening_(options.learned ? OpeningModel<Dim>::Rule::learned : OpeningModel<Dim>::Rule::masks) {
   check_options(options, "planner");
   check_weights<Dim>(options.weights);
+  require(options.travel_weight == 0.0 || options.metric != PlannerOptions::Metric::optimistic,
+          fmt::format("planner.travel_weight = {:g}: must be 0 with planner.metric = optimistic, whose bounds know no way", options.travel_weight));
 }
 
 template <int Dim>
@@ -120,16 +131,26 @@ std::vector<std::size_t> Planner<Dim>::candidates(const BeliefView<Dim>& view) c
   return nodes;
 }
 
+/// The reachable node nearest to a place; kNoNode if nothing is reachable.
+template <int Dim>
+  requires SpatialDim<Dim>
+std::size_t Planner<Dim>::nearest_place(const Vec<Dim>& place) const {
+  const Grid<Dim>& grid = reachable_.window;
+  std::size_t nearest = kNoNode;
+  double least = kInfinity;
+  for (std::size_t i = 0; i < reachable_.values.size(); ++i) {
+    const double distance = reachable_[i] != 0 ? (grid.position(i) - place).squaredNorm() : kInfinity;
+    if (distance < least) least = distance, nearest = i;
+  }
+  return nearest;
+}
+
 template <int Dim>
   requires SpatialDim<Dim>
 std::vector<Vec<Dim>> Planner<Dim>::path_to(std::size_t node, const Vec<Dim>& here) const {
   if (!rule_.places) return safe_path(reachable_, node, here);
   // By a rule we may stand off the places ourselves: first to the nearest of them.
-  const Grid<Dim>& grid = reachable_.window;
-  std::size_t home = node;
-  for (std::size_t i = 0; i < reachable_.values.size(); ++i)
-    if (reachable_[i] != 0 && (grid.position(i) - here).squaredNorm() < (grid.position(home) - here).squaredNorm()) home = i;
-  std::vector<Vec<Dim>> path = safe_path(reachable_, node, grid.position(home));
+  std::vector<Vec<Dim>> path = safe_path(reachable_, node, reachable_.window.position(nearest_place(here)));
   path.insert(path.begin(), here);
   return path;
 }
@@ -140,6 +161,15 @@ double Planner<Dim>::mix(const RaySums& sums) const {
   const auto term = [](double weight, double value, double largest) { return largest > 0.0 ? weight * value / largest : 0.0; };
   return term(options_.volume_weight, sums.volume, scale_.volume) + term(options_.solid_angle_weight, sums.solid_angle, scale_.solid_angle) +
          term(options_.area_weight, sums.area, scale_.area);
+}
+
+/// What the way there leaves of E.
+template <int Dim>
+  requires SpatialDim<Dim>
+double Planner<Dim>::after_travel(std::size_t node) const {
+  if (walk_.values.empty()) return 1.0;
+  const double share = 1.0 + static_cast<double>(walk_[node]) / (options_.speed * options_.scan_time);
+  return std::isfinite(share) ? inverse_power(share, options_.travel_weight) : 0.0;
 }
 
 template <int Dim>
@@ -165,7 +195,7 @@ auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const st
   };
   const auto rank = [&] {
     set_scale(scored);
-    for (Scored& s : scored) s.score = mix(s.sums);
+    for (Scored& s : scored) s.score = mix(s.sums) * after_travel(s.node);
     std::sort(scored.begin(), scored.end(),
               [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
   };
@@ -178,7 +208,7 @@ auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const st
   std::vector<Scored> rest(scored.begin() + static_cast<std::ptrdiff_t>(best), scored.end());
   scored.resize(best);
   rank();
-  for (Scored& s : rest) s.score = mix(s.sums);
+  for (Scored& s : rest) s.score = mix(s.sums) * after_travel(s.node);
   scored.insert(scored.end(), rest.begin(), rest.end());
   return scored;
 }
@@ -192,7 +222,7 @@ auto Planner<Dim>::score_by_boundary(const BeliefView<Dim>& view, std::span<cons
   std::vector<Scored> scored(nodes.size());
   parallel_for(nodes.size(), 1, [&](std::size_t i) {
     scored[i].node = nodes[i];
-    scored[i].score = boundary_metric<Dim>(elements, march, view.window().position(nodes[i]), options_);
+    scored[i].score = boundary_metric<Dim>(elements, march, view.window().position(nodes[i]), options_) * after_travel(nodes[i]);
   });
   std::sort(scored.begin(), scored.end(),
             [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
@@ -222,7 +252,7 @@ auto Planner<Dim>::score_by_baseline(const BeliefView<Dim>& view, std::span<cons
   parallel_for(scored.size(), 1, [&](std::size_t i) {
     const Vec<Dim> z = view.window().position(scored[i].node);
     scored[i].sums = march.look(z, directions);  // The end of the run is judged by expected volume whatever the metric.
-    if (options_.metric == Metric::count) scored[i].score = frontier_count<Dim>(frontier, march, z, max_range_);
+    if (options_.metric == Metric::count) scored[i].score = frontier_count<Dim>(frontier, march, z, max_range_) * after_travel(scored[i].node);
   });
   set_scale(scored);
   return scored;
@@ -256,6 +286,14 @@ typename Decision<Dim>::End Planner<Dim>::end_of(const Decision<Dim>& decision, 
   return idle_ >= options_.idle_limit ? End::idle : End::none;
 }
 
+/// Ties go to the nearer, then to the smaller index.
+template <int Dim>
+  requires SpatialDim<Dim>
+auto Planner<Dim>::best_of(std::span<const Scored> scored, const Vec<Dim>& here) const -> const Scored& {
+  const auto rank = [&](const Scored& s) { return std::tuple(-s.score, (reachable_.window.position(s.node) - here).squaredNorm(), s.node); };
+  return *std::min_element(scored.begin(), scored.end(), [&](const Scored& a, const Scored& b) { return rank(a) < rank(b); });
+}
+
 template <int Dim>
   requires SpatialDim<Dim>
 Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume) {
@@ -268,6 +306,8 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   opening_.update(view, here, max_range_, &grid_);
   opacity_ = options_.lambda_factor * measured_opacity(view);
   reachable_ = rule_.places ? rule_.places(view, here) : reachable_nodes(view, here, options_.clearance);
+  const std::size_t home = options_.travel_weight > 0.0 ? nearest_place(here) : kNoNode;
+  if (home != kNoNode) walk_ = fast_march<Dim>(reachable_, std::array{Seed{home, 0.0F}});
 
   auto seen_volume = static_cast<double>(seen_nodes(view));
   for (int a = 0; a < Dim; ++a) seen_volume *= view.window().spacing;
@@ -287,11 +327,7 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   for (const Scored& s : scored) decision.scored.emplace_back(s.node, static_cast<float>(s.score));
   last_.clear();
   if (!scored.empty()) {
-    // Ties go to the nearer, then to the smaller index.
-    const Scored& best = *std::min_element(scored.begin(), scored.end(), [&](const Scored& a, const Scored& b) {
-      const auto rank = [&](const Scored& s) { return std::tuple(-s.score, (view.window().position(s.node) - here).squaredNorm(), s.node); };
-      return rank(a) < rank(b);
-    });
+    const Scored& best = options_.look_ahead > 0 && options_.metric == Metric::ray ? first_of_best_pair(view, scored) : best_of(scored, here);
     decision.found = true;
     decision.position = view.window().position(best.node);
     decision.score = best.score;
@@ -306,21 +342,22 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   decision.found = decision.end == Decision<Dim>::End::none;
   last_look_ = squeezed_ = {};
   if (new_volume >= options_.stop_volume * seen_volume) last_looks_ = 0;
-  if (!decision.found && decision.end != Decision<Dim>::End::idle) look_again(view, decision);
+  if (!decision.found && decision.end != Decision<Dim>::End::idle) look_again(view, decision, seen_volume);
   return decision;
 }
 
 /// Nothing much is expected any more: is there a face nobody has looked at, and a place that sees it?
 template <int Dim>
   requires SpatialDim<Dim>
-void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decision) {
+void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decision, double seen_volume) {
   std::optional<RayCaster<Dim>> surface;
   if (surface_) surface.emplace(patch_mesh<Dim>(surface_(), 0.3 * view.window().spacing));
   const Field<Dim>* weight = weight_.values.empty() ? nullptr : &weight_;
   const Ground<Dim> ground{reachable_, visited_, max_range_, surface ? &*surface : nullptr, true, weight};
   last_look_ = looks_.look(view, opening_.faces(), ground);
-  if (last_look_.place && last_looks_ < options_.last_looks) {
-    ++last_looks_;
+  const bool matters = last_look_.volume >= kMatters * seen_volume;
+  if (last_look_.place && options_.last_looks > 0 && (matters || last_looks_ < options_.last_looks)) {
+    if (!matters) ++last_looks_;
     looks_.answer(view, opening_.faces(), ground, *last_look_.place);
     decision.found = true;
     decision.end = Decision<Dim>::End::none;

@@ -99,12 +99,16 @@ class Planner {
                                                       std::span<const std::size_t> medial);
   [[nodiscard]] std::vector<Scored> score_by_optimism(const BeliefView<Dim>& view, std::span<const std::size_t> medial);
   [[nodiscard]] typename Decision<Dim>::End end_of(const Decision<Dim>& decision, double seen_volume);
-  void look_again(const BeliefView<Dim>& view, Decision<Dim>& decision);
+  [[nodiscard]] double after_travel(std::size_t node) const;
+  [[nodiscard]] const Scored& best_of(std::span<const Scored> scored, const Vec<Dim>& here) const;
+  [[nodiscard]] const Scored& first_of_best_pair(const BeliefView<Dim>& view, std::span<const Scored> scored) const;
+  void look_again(const BeliefView<Dim>& view, Decision<Dim>& decision, double seen_volume);
   [[nodiscard]] double mix(const RaySums& sums) const;
   void set_scale(std::span<const Scored> scored);
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view, const Field<Dim>* weight) const;
   [[nodiscard]] std::vector<Vec<Dim>> path_to(std::size_t node, const Vec<Dim>& here) const;
+  [[nodiscard]] std::size_t nearest_place(const Vec<Dim>& place) const;
   [[nodiscard]] std::vector<Vec<Dim>> way_to(const Vec<Dim>& place) const;
   [[nodiscard]] std::vector<std::size_t> candidates(const BeliefView<Dim>& view) const;
 
@@ -114,6 +118,7 @@ class Planner {
   OpeningModel<Dim> opening_;
   std::vector<Vec<Dim>> visited_;
   Field<Dim, std::uint8_t> reachable_;
+  Field<Dim> walk_;      // From the last scan to every reachable node [m]; empty: it does not count.
   MarchGrid<Dim> grid_;  // Of the last decision's belief.
   std::optional<LazyPool<Dim>> pool_;
   Field<Dim> weight_;  // w per node; empty: 1 everywhere.

@@ -42,6 +42,12 @@ struct PlannerOptions {
   bool printed_curvature = false;  ///< lap(psi) > M/h, as printed.
   double clearance = 0.5;          ///< Of a vantage point and of the path to known obstacles [m].
 
+  // What a place costs, and what comes after it.
+  double travel_weight = 0.0;   ///< E / (1 + walk / (speed scan_time))^p: 0 for few scans, 1 for little time, between for both.
+  double speed = 1.0;           ///< Of travel [m/s].
+  double scan_time = 120.0;     ///< Of one scan with its set-up [s].
+  std::int64_t look_ahead = 0;  ///< Ray form: so many of the best are tried in pairs; the better half of the best pair comes first. 0: none.
+
   // Stop.
   double stop_volume = 2e-4;     ///< Expected new volume as a share of the seen volume, twice in a row.
   std::int64_t idle_limit = 30;  ///< Picks in a row that gained nothing.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
 #include "vantage/planner/boundary_metric.h"
@@ -305,6 +307,68 @@ TYPED_TEST(PlannerTest, WeightsDirectTheMetric) {
   PlannerOptions short_list;
   short_list.weights = {0.0, 1.0};
   EXPECT_ANY_THROW(Planner<Dim>(short_list, 80.0, 1));
+}
+
+/// A corridor along the first axis, unseen at its ends: 2 m on the left, 4 m on the right.
+template <int Dim>
+HandMade<Dim> corridor() {
+  return HandMade<Dim>(cube<Dim>(8.0), [](const Vec<Dim>& p) {
+    for (int a = 1; a < Dim; ++a)
+      if (std::abs(p[a]) > 1.5) return NodeState::obstacle;
+    return p[0] < -6.0 || p[0] > 4.0 ? NodeState::unseen : NodeState::seen;
+  });
+}
+
+TYPED_TEST(PlannerTest, TheWayThereCountsAsAsked) {
+  constexpr int Dim = TypeParam::value;
+  const HandMade<Dim> belief = corridor<Dim>();
+  const Vec<Dim> here = on_axis<Dim>(-2.0);
+  const auto choose = [&](double weight) {
+    PlannerOptions options;
+    options.lambda_factor = 0.0;
+    options.refine = options.candidates;  // All are looked at alike, so that only the way there makes a difference.
+    options.travel_weight = weight;
+    options.speed = 0.5;
+    options.scan_time = 4.0;
+    return Planner<Dim>(options, 80.0, 1).choose(belief.view(), here, 1.0);
+  };
+  const Decision<Dim> free = choose(0.0), once = choose(1.0);
+  std::map<std::size_t, float> scores(free.scored.begin(), free.scored.end());
+  ASSERT_EQ(scores.size(), once.scored.size());
+  for (const auto& [node, score] : once.scored) {
+    const double walk = (belief.state.window.position(node) - here).norm();
+    EXPECT_NEAR(score, static_cast<double>(scores.at(node)) / (1.0 + walk / 2.0), 0.1 * score);  // First-order marching.
+  }
+  EXPECT_GT(free.position[0], here[0]);
+  EXPECT_LT((choose(4.0).position - here).norm(), (free.position - here).norm());
+  PlannerOptions optimistic;
+  optimistic.metric = PlannerOptions::Metric::optimistic;
+  optimistic.travel_weight = 1.0;
+  EXPECT_ANY_THROW(Planner<Dim>(optimistic, 80.0, 1));
+}
+
+/// The pair that begins with the chosen place shows no less than the one that begins with the best place.
+TYPED_TEST(PlannerTest, LookingAheadFindsTheBetterPair) {
+  constexpr int Dim = TypeParam::value;
+  // A hall with niches on both sides, two of which a place in the middle sees in part.
+  const HandMade<Dim> belief(cube<Dim>(6.0), [](const Vec<Dim>& p) {
+    if (std::abs(p[1]) < 2.0) return NodeState::seen;
+    const bool niche = std::abs(std::abs(p[0]) - 2.0) < 1.0 || std::abs(p[0]) > 5.0;
+    return niche ? NodeState::unseen : NodeState::obstacle;
+  });
+  PlannerOptions options;
+  options.solid_angle_weight = 0.0;
+  options.candidates = 30;
+  const auto pair = [&](std::int64_t look_ahead) {
+    options.look_ahead = look_ahead;
+    Planner<Dim> planner(options, 80.0, 1);
+    const Decision<Dim> decision = planner.choose(belief.view(), on_axis<Dim>(-1.0), 1.0);
+    const auto first = planner.rank(belief.view(), {.count = 1, .among = {decision.position}});
+    const auto second = planner.rank(belief.view(), {.count = 1, .planned = {decision.position}});
+    return first.at(0).new_volume + second.at(0).added_volume;
+  };
+  EXPECT_GE(pair(1000), pair(0) * (1.0 - 1e-6));
+  EXPECT_DOUBLE_EQ(pair(1), pair(0));
 }
 
 TYPED_TEST(PlannerTest, SameBitsForAnyNumberOfThreads) {

@@ -50,6 +50,13 @@ class Preview {
     return std::max(open < 0.0 ? static_cast<double>(openness_[node]) : open, 0.0) * through;
   }
 
+  /// Lessens what is left of every unseen node by what a scan from `place` will show.
+  void take(const Vec<Dim>& place, Field<Dim>& left) const {
+    parallel_for(grid_.size(), 1024, [&](std::size_t i) {
+      if (view_.state[i] == NodeState::unseen && left[i] > 0.0F) left[i] *= static_cast<float>(1.0 - shows(place, i));
+    });
+  }
+
   /// Share of known surface in all that is in view: surface and boundary that may open.
   [[nodiscard]] double overlap(const Vec<Dim>& from, std::span<const Vec<Dim>> directions) const {
     std::int64_t known = 0, open = 0;
@@ -97,16 +104,10 @@ template <int Dim>
   requires SpatialDim<Dim>
 std::vector<Vec<Dim>> Planner<Dim>::way_to(const Vec<Dim>& place) const {
   const Vec<Dim>& here = visited_.back();
-  const Grid<Dim>& grid = reachable_.window;
-  std::size_t node = grid.size();
-  double nearest = kInfinity;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const double distance = reachable_[i] != 0 ? (grid.position(i) - place).squaredNorm() : kInfinity;
-    if (distance < nearest) nearest = distance, node = i;
-  }
-  if (node == grid.size()) return {here, place};
+  const std::size_t node = nearest_place(place);
+  if (node == kNoNode) return {here, place};
   std::vector<Vec<Dim>> path = path_to(node, here);
-  if (nearest > 0.0) path.push_back(place);
+  if (reachable_.window.position(node) != place) path.push_back(place);
   return path;
 }
 
@@ -117,11 +118,7 @@ std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, co
   const Preview<Dim> preview(view, opening_.openness(), opacity_, max_range_);
   const std::vector<Vec<Dim>> directions = spread_directions<Dim>(kRays >> (2 * (3 - Dim)), seed_ * 1000003 + visited_.size());
   Field<Dim> left = weight_.values.empty() ? Field<Dim>(grid, 1.0F) : weight_;
-  const auto take = [&](const Vec<Dim>& place) {
-    parallel_for(grid.size(), 1024, [&](std::size_t i) {
-      if (view.state[i] == NodeState::unseen && left[i] > 0.0F) left[i] *= static_cast<float>(1.0 - preview.shows(place, i));
-    });
-  };
+  const auto take = [&](const Vec<Dim>& place) { preview.take(place, left); };
   for (const Vec<Dim>& place : request.planned) take(place);
 
   double least = options_.stop_volume * static_cast<double>(seen_nodes(view));
@@ -161,6 +158,35 @@ std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, co
   }
   return ranked;
 }
+
+/// Two-step look-ahead: of all pairs of a few good places the one that is expected to show most together; its better half.
+template <int Dim>
+  requires SpatialDim<Dim>
+auto Planner<Dim>::first_of_best_pair(const BeliefView<Dim>& view, std::span<const Scored> scored) const -> const Scored& {
+  const Grid<Dim>& grid = view.window();
+  const Preview<Dim> preview(view, opening_.openness(), opacity_, max_range_);
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(kRays >> (2 * (3 - Dim)), seed_ * 1000003 + visited_.size());
+  const std::size_t count = std::min(scored.size(), static_cast<std::size_t>(options_.look_ahead));
+  std::size_t first = 0;
+  double most = -1.0;
+  for (std::size_t i = 0; i < count; ++i) {  // Best first: `i` is the better half.
+    Field<Dim> left = weight_.values.empty() ? Field<Dim>(grid, 1.0F) : weight_;
+    preview.take(grid.position(scored[i].node), left);
+    const RayMarch<Dim> march = rays(view, &left);
+    std::vector<double> both(count - i, scored[i].score);
+    parallel_for(both.size() - 1, 1, [&](std::size_t k) {
+      const Scored& second = scored[i + 1 + k];
+      both[k] += mix(march.look(grid.position(second.node), directions)) * after_travel(second.node);
+    });
+    const double best = *std::max_element(both.begin(), both.end());
+    if (best > most) most = best, first = i;
+  }
+  return scored[first];
+}
+
+#define VANTAGE_INSTANTIATE(D) template auto Planner<D>::first_of_best_pair(const BeliefView<D>&, std::span<const Scored>) const -> const Scored&;
+VANTAGE_INSTANTIATE(2)
+VANTAGE_INSTANTIATE(3)
 
 template std::vector<RankedPlace<2>> Planner<2>::rank(const BeliefView<2>&, const RankRequest<2>&) const;
 template std::vector<RankedPlace<3>> Planner<3>::rank(const BeliefView<3>&, const RankRequest<3>&) const;

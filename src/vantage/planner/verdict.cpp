@@ -22,6 +22,7 @@ struct Part {
   Index<Dim> low, high;          // Inclusive.
   double open = 0.0;             // What its faces are expected to open [m^Dim].
   double rim = 0.0;              // A layer of cells behind its faces [m^Dim].
+  double stuck = 0.0;            // Straight behind the faces in the open that stay although someone looked [m^Dim].
   double glimpsed = 0.0;         // Nodes a ray went by.
   std::size_t viewer = kNoNode;  // Sees a part of it that may open.
   bool has_face = false, reachable = false, doubtful = false, squeezed = false;
@@ -76,6 +77,29 @@ double cell_measure(double h, int power) {
   return value;
 }
 
+/// Seen nodes that hang together with the reachable ones, not nearer to the known surface than `least` [m] (1, else 0). The other ones were seen
+/// through something narrow.
+template <int Dim>
+Field<Dim, std::uint8_t> open_air(const BeliefView<Dim>& view, const Field<Dim, std::uint8_t>& reachable, double least) {
+  const Grid<Dim>& grid = view.window();
+  Field<Dim, std::uint8_t> air = reachable;
+  std::vector<std::size_t> queue;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    if (air[i] != 0) queue.push_back(i);
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    const Index<Dim> at = grid.local(queue[k]);
+    for (int a = 0; a < Dim; ++a)
+      for (const int by : {-1, 1}) {
+        const Index<Dim> to = at + by * Index<Dim>::Unit(a);
+        if (!grid.inside(to) || air.at(to) != 0 || view.state.at(to) != NodeState::seen || static_cast<double>(view.known_distance.at(to)) < least)
+          continue;
+        air.at(to) = 1;
+        queue.push_back(grid.linear(to));
+      }
+  }
+  return air;
+}
+
 /// Behind a face that opens one sees as deep as it goes, or a mean free path.
 template <int Dim>
 void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> faces, const Field<Dim, std::uint8_t>& reachable,
@@ -83,6 +107,7 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
   const double h = view.window().spacing, face_area = cell_measure<Dim>(h, Dim - 1);
   const double free_path = options.opacity > 0.0 ? 1.0 / options.opacity : kInfinity;
   const bool looked_for = options.last_look != nullptr && options.last_look->asked;
+  const Field<Dim, std::uint8_t> air = looked_for ? open_air(view, reachable, 0.8 * h) : Field<Dim, std::uint8_t>{};
   for (const BoundaryFace<Dim>& face : faces) {
     Part<Dim>& part = parts[static_cast<std::size_t>(regions.region_of(face.unseen))];
     const double behind = face_area * depth_behind(view, face, free_path);
@@ -92,13 +117,11 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
     part.reachable = part.reachable || viewable;
     part.rim += face_area * h;
     const bool stubborn = looked_for && std::binary_search(options.last_look->stubborn.begin(), options.last_look->stubborn.end(), face.unseen);
-    if (stubborn) {
-      part.doubtful = true;
-      part.open += behind;
-    }
-    if (!viewable) continue;
-    part.doubtful = true;
-    part.open += behind * face.probability;
+    // Off the walls and deep, beside what was seen through something narrow: nobody can tell how far it goes on.
+    const bool through = looked_for && air[face.seen] == 0 && face.known_distance >= 0.75 * h && depth_behind(view, face, 2.0 * h) >= 2.0 * h;
+    part.doubtful = part.doubtful || viewable || through;
+    if (stubborn) (through ? part.open : part.stuck) += behind;
+    if (viewable) part.open += behind * face.probability;
   }
   for (const LastLook* look : {options.last_look, options.squeezed}) {
     if (look == nullptr || !look->asked) continue;
@@ -123,8 +146,8 @@ Share share_of(const Part<Dim>& part, double h) {
   const bool entered = part.glimpsed >= kGlimpses;
   Share share;
   share.least = 0.25 * std::min(all, part.glimpsed * cell);  // A ray through a cell does not show all of it.
-  share.most = part.doubtful || part.squeezed || entered ? all : std::min(all, part.rim);
-  share.expected = std::min(all, part.open);
+  share.most = part.doubtful || part.squeezed || entered ? all : std::min(all, part.rim + 2.0 * part.stuck);
+  share.expected = std::min(all, part.open + 0.25 * part.stuck);
   // Light gets in where no opening is known: as much as not may be seen that way.
   if (entered) share.expected = std::max(share.expected, std::min(0.5 * (share.least + share.most), 4.0 * part.glimpsed * cell));
   // A passage the lattice is too coarse for leads to where nobody has looked.
