@@ -19,6 +19,7 @@
 #include "vantage/belief/belief.h"
 #include "vantage/field/distance.h"
 #include "vantage/planner/candidates.h"
+#include "vantage/planner/plain_sum.h"
 #include "vantage/planner/planner.h"
 #include "vantage/planner/safe_path.h"
 #include "vantage/scan/fill.h"
@@ -96,6 +97,30 @@ class Run {
   Belief<3> belief;
 };
 
+/// Eq. (1) without line of sight at the candidates: term by term, in blocks of several terms, and by the tree.
+void plain_sums(const BeliefView<3>& view, std::span<const BoundaryFace<3>> faces, const RayMarch<3>& march, std::span<const std::size_t> nodes) {
+  PlannerOptions options;
+  options.line_of_sight = false;
+  const auto elements = boundary_elements<3>(view, faces, options);
+  const auto at_all = [&](auto&& metric) {
+    std::vector<double> values(nodes.size());
+    parallel_for(nodes.size(), 1, [&](std::size_t i) { values[i] = metric(view.window().position(nodes[i])); });
+    return values;
+  };
+  const std::vector<double> slow =
+      timed("plain sum, term by term", [&] { return at_all([&](const Vec<3>& z) { return boundary_metric<3>(elements, march, z, options); }); });
+  const double largest = *std::max_element(slow.begin(), slow.end());
+  for (const double angle : {0.0, 0.2}) {
+    options.tree_angle = angle;
+    const auto sum = timed("plain sum, build", [&] { return PlainSum<3>(elements, march, options); });
+    const std::vector<double> fast = timed(angle > 0.0 ? "plain sum, tree of 0.2 rad" : "plain sum, in blocks",
+                                           [&] { return at_all([&](const Vec<3>& z) { return sum.at(z); }); });
+    double worst = 0.0;
+    for (std::size_t i = 0; i < slow.size(); ++i) worst = std::max(worst, std::abs(fast[i] - slow[i]));
+    fmt::print("  {} terms at {} places, largest difference {:.1e} of the largest sum\n", elements.size(), nodes.size(), worst / largest);
+  }
+}
+
 /// The stages of one decision, each by itself.
 void stages(const BeliefView<3>& view, OpeningModel<3> opening, std::span<const Vec<3>> visited, const PlannerOptions& options, double range) {
   const Vec<3> here = visited.back();
@@ -117,6 +142,7 @@ void stages(const BeliefView<3>& view, OpeningModel<3> opening, std::span<const 
   (void)timed("second look",
               [&] { return look(std::min<std::size_t>(nodes.size(), static_cast<std::size_t>(options.refine)), options.refine_rays); });
   if (nodes.empty()) return;
+  plain_sums(view, opening.faces(), march, nodes);
   const std::size_t best = nodes[static_cast<std::size_t>(std::max_element(volumes.begin(), volumes.end()) - volumes.begin())];
   (void)timed("path", [&] { return safe_path(reachable, best, here).size(); });
   (void)timed("verdict", [&] { return assess<3>(view, opening.faces(), reachable, {opacity, range, 0.0}).unseen.size(); });

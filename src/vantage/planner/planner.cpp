@@ -16,6 +16,7 @@
 #include "vantage/planner/baselines.h"
 #include "vantage/planner/boundary_metric.h"
 #include "vantage/planner/candidates.h"
+#include "vantage/planner/plain_sum.h"
 #include "vantage/planner/safe_path.h"
 
 namespace vantage {
@@ -28,6 +29,23 @@ template <int Dim>
 std::size_t fewer(std::int64_t rays) {
   return static_cast<std::size_t>(std::max<std::int64_t>(rays >> (2 * (3 - Dim)), 16));
 }
+
+/// Eq. (1) at many places: by a tree, or with line of sight element by element.
+template <int Dim>
+class BoundarySum {
+ public:
+  BoundarySum(std::span<const BoundaryElement<Dim>> elements, const RayMarch<Dim>& rays, const PlannerOptions& options)
+      : elements_(elements), rays_(rays), options_(options) {
+    if (!options.line_of_sight) plain_.emplace(elements, rays, options);
+  }
+  [[nodiscard]] double at(const Vec<Dim>& z) const { return plain_ ? plain_->at(z) : boundary_metric<Dim>(elements_, rays_, z, options_); }
+
+ private:
+  std::span<const BoundaryElement<Dim>> elements_;
+  const RayMarch<Dim>& rays_;
+  const PlannerOptions& options_;
+  std::optional<PlainSum<Dim>> plain_;
+};
 
 /// w of every node, from the boxes of PlannerOptions::weights; empty if there are none.
 template <int Dim>
@@ -76,6 +94,8 @@ void describe(PlannerOptions& o, const OptionVisitor& visit) {
         "boundary sum: without known surface and what was looked at frontally, without known surface, all as printed");
   visit("normalise", o.normalise, "boundary sum: divide by the distance; false as printed");
   visit("line_of_sight", o.line_of_sight, "boundary sum: only elements in view; false as printed");
+  visit("tree_angle", o.tree_angle, "rad", Range{0, 1},
+        "boundary sum without line of sight: groups of elements that look smaller are summed at once; 0: one by one");
   visit("tau_power", o.tau_power, "", Range{0, 4}, "depth factor tau = r^-p, in quarters; 0 is the paper's");
   visit("candidates", o.candidates, "places", Range{1, 1e6}, "evaluated at a step in 3D; 2D: twice as many");
   visit("curvature", o.curvature, "", Range{0, 100}, "M h: candidates have -lap(psi) > M");
@@ -220,9 +240,10 @@ auto Planner<Dim>::score_by_boundary(const BeliefView<Dim>& view, std::span<cons
   const std::vector<BoundaryElement<Dim>> elements = boundary_elements(view, opening_.faces(), options_);
   const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_ * 1000003 + visited_.size());
   std::vector<Scored> scored(nodes.size());
+  const BoundarySum<Dim> sum(elements, march, options_);
   parallel_for(nodes.size(), 1, [&](std::size_t i) {
     scored[i].node = nodes[i];
-    scored[i].score = boundary_metric<Dim>(elements, march, view.window().position(nodes[i]), options_) * after_travel(nodes[i]);
+    scored[i].score = sum.at(view.window().position(nodes[i])) * after_travel(nodes[i]);
   });
   std::sort(scored.begin(), scored.end(),
             [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
@@ -377,11 +398,12 @@ std::vector<double> Planner<Dim>::evaluate(const BeliefView<Dim>& view, std::spa
   const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays / 2), seed_);
   const std::vector<BoundaryElement<Dim>> elements =
       by_rays ? std::vector<BoundaryElement<Dim>>{} : boundary_elements(view, opening_.faces(), options_);
+  const BoundarySum<Dim> sum(elements, march, options_);
   std::vector<double> values(places.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_for(places.size(), 1, [&](std::size_t i) {
     const Index<Dim> node = view.window().nearest(places[i]);
     if (!view.window().inside(node) || !view.seen(view.window().linear(node))) return;
-    values[i] = by_rays ? mix(march.look(places[i], directions)) : boundary_metric<Dim>(elements, march, places[i], options_);
+    values[i] = by_rays ? mix(march.look(places[i], directions)) : sum.at(places[i]);
   });
   return values;
 }

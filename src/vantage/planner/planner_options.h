@@ -34,6 +34,7 @@ struct PlannerOptions {
   enum class Mask { both, known, none } mask = Mask::both;  ///< Which elements are shadow boundary; none: omega_O as printed, identically 1.
   bool normalise = true;                                    ///< Divide by |z - y|; false: as printed.
   bool line_of_sight = true;                                ///< Eq. (1) has none.
+  double tree_angle = 0.2;                                  ///< Without line of sight: what looks smaller is summed at once; 0: nothing [rad].
   double tau_power = 0.0;                                   ///< tau = r^-p; 0 is the paper's.
 
   // Candidates.
