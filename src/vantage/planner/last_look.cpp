@@ -38,6 +38,26 @@ std::vector<std::size_t> new_places(const Ground<Dim>& ground) {
   return places;
 }
 
+/// The kNearPlaces of `places` nearest to a point, nearest first.
+template <int Dim>
+std::vector<std::size_t> nearest_of(const Grid<Dim>& grid, std::span<const std::size_t> places, const Vec<Dim>& point) {
+  std::vector<std::pair<double, std::size_t>> nearest;  // A heap, the farthest on top.
+  for (const std::size_t place : places) {
+    const std::pair entry((grid.position(place) - point).squaredNorm(), place);
+    if (nearest.size() == kNearPlaces) {
+      if (entry >= nearest.front()) continue;
+      std::pop_heap(nearest.begin(), nearest.end());
+      nearest.pop_back();
+    }
+    nearest.push_back(entry);
+    std::push_heap(nearest.begin(), nearest.end());
+  }
+  std::sort_heap(nearest.begin(), nearest.end());
+  std::vector<std::size_t> sorted;
+  for (const auto& [distance, place] : nearest) sorted.push_back(place);
+  return sorted;
+}
+
 /// Nothing known lies between a place and the middle of a face, and all but the last bit is known.
 template <int Dim>
 bool may_see(const BeliefView<Dim>& view, const Ground<Dim>& ground, const Vec<Dim>& from, const Vec<Dim>& to) {
@@ -168,11 +188,7 @@ LastLook LastLooks<Dim>::look(const BeliefView<Dim>& view, std::span<const Bound
     };
     for (const std::size_t place : places) try_from(place);
     if (!answers[q].empty() || places.size() == everywhere.size()) return;
-    std::vector<std::pair<double, std::size_t>> near;  // Those next to it have not been tried, most of them.
-    for (const std::size_t place : everywhere) near.emplace_back((grid.position(place) - asked[q].center).squaredNorm(), place);
-    const std::size_t count = std::min(kNearPlaces, near.size());
-    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
-    for (std::size_t k = 0; k < count; ++k) try_from(near[k].second);
+    for (const std::size_t place : nearest_of(grid, everywhere, asked[q].center)) try_from(place);  // Most of them have not been tried.
   });
   std::vector<std::pair<std::size_t, double>> volume;  // By place.
   const double share = static_cast<double>(all.size()) / std::max<double>(1.0, static_cast<double>(asked.size()));
