@@ -52,10 +52,10 @@ struct Target {
 
 const std::vector<Target>& targets() {
   using enum ConvertKind;
-  static const std::vector<Target> all = {{".ply", {scans, surface}}, {".pcd", {scans}}, {".las", {scans}},   {".xyz", {scans}},
-                                          {".txt", {scans}},          {".asc", {scans}}, {".csv", {scans}},   {".geojson", {scans}},
-                                          {".obj", {surface}},        {".glb", {surface}}, {".vti", {field}}, {".npy", {field}},
-                                          {".bt", {field}}};
+  static const std::vector<Target> all = {
+      {".ply", {scans, surface}}, {".pcd", {scans}}, {".las", {scans}},     {".xyz", {scans}},   {".txt", {scans}},
+      {".asc", {scans}},          {".csv", {scans}}, {".geojson", {scans}}, {".obj", {surface}}, {".glb", {surface}},
+      {".vti", {field}},          {".npy", {field}}, {".bt", {field}}};
   return all;
 }
 
@@ -66,17 +66,16 @@ std::string endings(ConvertKind kind) {
   return out.substr(1);
 }
 
-std::string_view name_of(ConvertKind kind) {
-  return kind == ConvertKind::scans ? "scans" : kind == ConvertKind::surface ? "a surface" : "a field";
-}
+std::string_view name_of(ConvertKind kind) { return kind == ConvertKind::scans ? "scans" : kind == ConvertKind::surface ? "a surface" : "a field"; }
 
 const Target& target_of(const std::string& out) {
   const std::string ending = fs::path(out).extension().string();
   require(ending != ".laz", "vantage-convert IN.las OUT.laz of the Python package writes LAZ; .las is written here", out);
   for (const Target& target : targets())
     if (target.ending == ending) return target;
-  throw Error(ErrorCode::bad_input, fmt::format("{}: must end in {}, {} or {}", ending.empty() ? "no ending" : ending, endings(ConvertKind::scans),
-                                                ".obj .glb", endings(ConvertKind::field)),
+  throw Error(ErrorCode::bad_input,
+              fmt::format("{}: must end in {}, {} or {}", ending.empty() ? "no ending" : ending, endings(ConvertKind::scans), ".obj .glb",
+                          endings(ConvertKind::field)),
               out);
 }
 
@@ -130,8 +129,10 @@ Written stations_written(const Flags& flags, const std::vector<MeasuredScan>& sc
   require(epsg.has_value(), "--crs EPSG:CODE is missing: a map must say what its coordinates are", flags.out);
   const std::vector<MapFeature> features = map_features(flags.in, scans);
   require(!features.empty(), "no scan of it says where it was taken", flags.in);
-  return {features_as_geojson(features, *epsg), fmt::format("{} places and lines in EPSG:{}", features.size(), *epsg),
-          {{"features", features.size()}, {"epsg", *epsg}}, {}};
+  return {features_as_geojson(features, *epsg),
+          fmt::format("{} places and lines in EPSG:{}", features.size(), *epsg),
+          {{"features", features.size()}, {"epsg", *epsg}},
+          {}};
 }
 
 Written scans_written(const Flags& flags, std::string_view ending) {
@@ -160,7 +161,8 @@ Written scans_written(const Flags& flags, std::string_view ending) {
 Written surface_written(const fs::path& in, std::string_view ending) {
   return std::visit(
       [&]<int Dim>(const std::vector<Patch<Dim>>& patches) -> Written {
-        Written written{{}, fmt::format("{} patches", grouped(static_cast<std::int64_t>(patches.size()))), {{"patches", patches.size()}, {"dim", Dim}}, {}};
+        Written written{
+            {}, fmt::format("{} patches", grouped(static_cast<std::int64_t>(patches.size()))), {{"patches", patches.size()}, {"dim", Dim}}, {}};
         written.bytes = ending == ".obj"   ? patches_as_obj<Dim>(patches)
                         : ending == ".glb" ? surface_as_glb<Dim>(patches, {})
                                            : patches_as_ply<Dim>(patches);
@@ -217,7 +219,8 @@ Written field_written(const Flags& flags, const fs::path& in, std::string_view e
     if (std::find(arrays.begin(), arrays.end(), &array) == arrays.end()) written.left_out.push_back("array " + array.name);
   const Vec<3> origin = window.position(Index<3>(Index<3>::Zero()));
   if (ending == ".npy")
-    written.left_out.push_back(fmt::format("the place of node 0 0 0 ({} {} {}) and the spacing ({})", origin[0], origin[1], origin[2], window.spacing));
+    written.left_out.push_back(
+        fmt::format("the place of node 0 0 0 ({} {} {}) and the spacing ({})", origin[0], origin[1], origin[2], window.spacing));
   written.bytes = ending == ".npy"  ? array_as_npy(*arrays[0], nodes)
                   : ending == ".bt" ? octomap_of(image, *arrays[0], in.string())
                                     : image_of(image, arrays);
@@ -256,7 +259,8 @@ int convert_command(const Arguments& arguments) {
                 "coordinates become multiples of it (.las; 1e-9 .. 1000; default 0.0001, or the finest power of ten that fits the extent)", "Points");
   parser.option("--las", flags.las, "VERSION", "1.2 or 1.4 (default: 1.2, and 1.4 for more than 4,294,967,295 points)", "Points");
   parser.option("--scan", flags.scan, "K", "only this scan, counted from 0 as in stations.csv", "Points");
-  parser.option("--crs", flags.crs, "EPSG:CODE", "projected coordinate system of the numbers (.las, .geojson; default: that of a LAS file)", "Points");
+  parser.option("--crs", flags.crs, "EPSG:CODE", "projected coordinate system of the numbers (.las, .geojson; default: that of a LAS file)",
+                "Points");
   parser.option("--array", flags.array, "NAME", "which array of a field (.vti, .npy, .bt; default: all, the only one, state)", "Fields");
   parser.flag("--force", flags.force, "replace OUT", "Output");
   parser.flag("--json", flags.json, "print what was written as JSON", "Output");

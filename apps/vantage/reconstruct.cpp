@@ -23,7 +23,8 @@ namespace {
 constexpr const char* kPurpose =
     "Fits surfaces to point clouds within a certified error: no measured point is farther than eta from the surface, and no place of the\n"
     "surface farther than eta from a point. Points that no surface explains stay as points. Reads PLY, PCD, XYZ, CSV, scan logs and run folders;\n"
-    "several clouds count as one. Writes .ply (polygons, segments and points with the error of each), .glb or .obj. With --verify the certificate is\n"
+    "several clouds count as one. Writes .ply (polygons, segments and points with the error of each), .glb or .obj. With --verify the certificate "
+    "is\n"
     "compared with every point and every patch by a program of its own.\n";
 
 constexpr const char* kExamples =

@@ -90,9 +90,9 @@ WrittenScans scans_as_pcd(std::span<const MeasuredScan> scans, const ScanWriteOp
   const Coordinates all = coordinates(scans, dim, options);
   const bool posed = scans.size() == 1 && scans.front().position.has_value();
   const std::string view = posed ? viewpoint(scans.front()) : viewpoint({});
-  std::string header = fmt::format("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT {}\n",
-                                   plane ? "x y" : "x y z", all.wide ? (plane ? "8 8" : "8 8 8") : (plane ? "4 4" : "4 4 4"),
-                                   plane ? "F F" : "F F F", plane ? "1 1" : "1 1 1");
+  std::string header =
+      fmt::format("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT {}\n", plane ? "x y" : "x y z",
+                  all.wide ? (plane ? "8 8" : "8 8 8") : (plane ? "4 4" : "4 4 4"), plane ? "F F" : "F F F", plane ? "1 1" : "1 1 1");
   header += fmt::format("WIDTH {0}\nHEIGHT 1\nVIEWPOINT {1}\nPOINTS {0}\nDATA {2}\n", point_count(scans), view, options.ascii ? "ascii" : "binary");
   WrittenScans written = written_with(all, header);
   if (posed && view == viewpoint({})) written.left_out.emplace_back("the pose (one at the origin reads as none in PCD)");

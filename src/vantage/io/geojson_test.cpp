@@ -26,7 +26,8 @@ TEST(GeoJson, CodesAreOfProjectedSystems) {
   EXPECT_EQ(parse_epsg("EPSG:25832", "--crs"), 25832);
   EXPECT_EQ(parse_epsg("epsg:4647", "--crs"), 4647);
   EXPECT_EQ(parse_epsg("2056", "--crs"), 2056);
-  for (const char* text : {"", "EPSG:", "EPSG:x", "EPSG:25832x", "EPSG:-1", "EPSG:1023", "EPSG:32767", "EPSG:99999999999", "utm32", "EPSG:4326", "4258"})
+  for (const char* text :
+       {"", "EPSG:", "EPSG:x", "EPSG:25832x", "EPSG:-1", "EPSG:1023", "EPSG:32767", "EPSG:99999999999", "utm32", "EPSG:4326", "4258"})
     EXPECT_THROW((void)parse_epsg(text, "--crs"), Error) << text;
 }
 

@@ -16,16 +16,18 @@ namespace vantage {
 namespace {
 
 constexpr int kFinest = -4;                                                        // Power of ten of what is chosen at most.
-constexpr double kLargest = std::numeric_limits<std::int32_t>::max() - 1;      // Of a coordinate's whole number.
+constexpr double kLargest = std::numeric_limits<std::int32_t>::max() - 1;          // Of a coordinate's whole number.
 constexpr std::uint64_t kLegacyCount = std::numeric_limits<std::uint32_t>::max();  // Points that LAS 1.2 can count.
-constexpr std::size_t kDescription = 32, kName = 32, kUser = 16;               // Bytes of texts.
+constexpr std::size_t kDescription = 32, kName = 32, kUser = 16;                   // Bytes of texts.
 constexpr std::uint16_t kWktBit = 1 << 4;
 
 /// A coordinate is offset + scale * (whole number).
 struct Steps {
   double scale = 0.0;
   Vec<3> offset = Vec<3>::Zero();
-  [[nodiscard]] std::int32_t whole(const Vec<3>& p, int axis) const { return static_cast<std::int32_t>(std::round((p[axis] - offset[axis]) / scale)); }
+  [[nodiscard]] std::int32_t whole(const Vec<3>& p, int axis) const {
+    return static_cast<std::int32_t>(std::round((p[axis] - offset[axis]) / scale));
+  }
 };
 
 /// Offsets are whole numbers where they may be, so that decimal coordinates stay decimal.
@@ -46,8 +48,9 @@ Steps choose_steps(const Box<3>& box, double resolution) {
   if (resolution > 0.0) {
     const std::optional<Steps> steps = steps_for(box, resolution);
     if (steps) return *steps;
-    throw Error(ErrorCode::bad_input, fmt::format("{}: LAS holds 4294967294 steps an axis, an extent of {:g} needs {:.2g} or more", resolution,
-                                                  box.size().maxCoeff(), box.size().maxCoeff() / (2.0 * kLargest)),
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: LAS holds 4294967294 steps an axis, an extent of {:g} needs {:.2g} or more", resolution, box.size().maxCoeff(),
+                            box.size().maxCoeff() / (2.0 * kLargest)),
                 "--resolution");
   }
   for (int power = kFinest; power < 300; ++power)

@@ -41,7 +41,11 @@ std::string array_as_npy(const LatticeArray& array, std::span<const std::int64_t
   put(out, static_cast<std::uint16_t>(header.size()));
   out += header;
   out.reserve(out.size() + count * (bytes ? 1 : 4));
-  std::visit([&](const auto& values) { for (const auto value : values) put(out, value); }, array.values);
+  std::visit(
+      [&](const auto& values) {
+        for (const auto value : values) put(out, value);
+      },
+      array.values);
   return out;
 }
 

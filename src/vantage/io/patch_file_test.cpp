@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/base/error.h"
-#include "vantage/io/bytes.h"
 #include "vantage/io/atomic_file.h"
+#include "vantage/io/bytes.h"
 #include "vantage/io/glb.h"
 #include "vantage/io/mesh_file.h"
 #include "vantage/io/obj.h"

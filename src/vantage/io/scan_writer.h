@@ -30,8 +30,8 @@ struct WrittenScans {
 /// The format that a name's ending asks for: "PLY", "PCD", "LAS", "XYZ" (.xyz, .txt, .asc) or "CSV"; none: no such ending.
 [[nodiscard]] std::optional<std::string_view> written_scan_format(std::string_view name);
 
-/// All scans in one file of a `written_scan_format`; docs/12-files.md says what each format keeps. A plane (all scans of dim 2) stays one, but in LAS.
-/// Throws bad_input: an extent that LAS cannot hold at the resolution asked, more points than LAS 1.2 counts.
+/// All scans in one file of a `written_scan_format`; docs/12-files.md says what each format keeps. A plane (all scans of dim 2) stays one, but in
+/// LAS. Throws bad_input: an extent that LAS cannot hold at the resolution asked, more points than LAS 1.2 counts.
 [[nodiscard]] WrittenScans scans_as(std::string_view format, std::span<const MeasuredScan> scans, const ScanWriteOptions& options = {});
 
 }  // namespace vantage
