@@ -84,7 +84,7 @@ void check_flags(const Flags& flags, std::string_view ending) {
   const struct {
     const char* name;
     bool given;
-    std::string_view endings;
+    std::string endings;
   } kTable[] = {{"--ascii", flags.ascii, ".ply .pcd"},
                 {"--number", !flags.number.empty(), ".ply .pcd"},
                 {"--resolution", !flags.resolution.empty(), ".las"},

@@ -65,7 +65,7 @@ def test_the_program_reads_what_it_asked_for(las, tmp_path, vantage):
 def test_real_laz(data, tmp_path, vantage):
     source = data("las_sample/autzen_trim.laz")
     assert convert.convert(source, tmp_path / "a.las") == 110000
-    assert vantage("info", tmp_path / "a.las").stdout.count("110000") == 1
+    assert "110,000" in vantage("info", tmp_path / "a.las").stdout
 
 
 

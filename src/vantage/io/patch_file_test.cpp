@@ -34,7 +34,9 @@ std::vector<Patch<3>> some_patches<3>() {
   polygon.vertices = {Vec<3>(6e6 + 0.125, 0, 1), Vec<3>(6e6 + 1, 0, 1), Vec<3>(6e6 + 1, 1, 1), Vec<3>(6e6, 1, 1)};
   polygon.data_to_surface = 0.03F;
   polygon.surface_to_data = 0.04F;
-  return {polygon, segment_patch<3>({1, 2, 3}, {4, 5, 6}), point_patch<3>({7, 8, 9})};
+  std::vector<Patch<3>> patches{polygon, segment_patch<3>({1, 2, 3}, {4, 5, 6}), point_patch<3>({7, 8, 9})};
+  patches[2].data_to_surface = 0.05F;
+  return patches;
 }
 
 template <class Dimension>
@@ -120,6 +122,9 @@ TEST(PatchFile, RefusesWhatIsNoPatch) {
       {head + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "2 corners"},
       {head + "0 0 0\n1 0 0\n0 1 0\n9 0 1 2 0 1 2 0 1 2\n", "9 corners"},
       {head + "0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", "vertex 1: coordinates must be finite"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement point 1\nproperty int "
+       "vertex\nend_header\n0 0 0\n1\n",
+       "point 0: vertex 1 of 1"},
       {"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n", "without z"},
   };
   for (const auto& [bytes, message] : table) {
