@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "arguments.h"
 #include "commands.h"
@@ -69,7 +70,8 @@ std::string endings(ConvertKind kind) {
 std::string_view name_of(ConvertKind kind) { return kind == ConvertKind::scans ? "scans" : kind == ConvertKind::surface ? "a surface" : "a field"; }
 
 const Target& target_of(const std::string& out) {
-  const std::string ending = fs::path(out).extension().string();
+  std::string ending = fs::path(out).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   require(ending != ".laz", "vantage-convert IN.las OUT.laz of the Python package writes LAZ; .las is written here", out);
   for (const Target& target : targets())
     if (target.ending == ending) return target;
@@ -183,7 +185,7 @@ const LatticeArray& chosen_array(const LatticeImage& image, const std::string& w
   }
   require(!image.arrays.empty(), "no arrays in it", in);
   require(!wanted.empty() || image.arrays.size() == 1, fmt::format("is missing: one of {}", names), "--array");
-  require(wanted.empty(), fmt::format("{}: must be one of {}", wanted, names), "--array");
+  require(wanted.empty(), fmt::format("no array {} in it, only {}", wanted, names), in);
   return image.arrays.front();
 }
 
@@ -237,7 +239,7 @@ Written converted(const Flags& flags) {
     kind = target.kinds.front();
     in /= kind == ConvertKind::surface ? run_file::kSurface : run_file::kBelief;
   } else {
-    require(wanted, fmt::format("holds {}, which goes to {}, not to {}", name_of(kind), endings(kind), target.ending), flags.in);
+    require(wanted, fmt::format("holds {}, written as {}, not as {}", name_of(kind), endings(kind), target.ending), flags.in);
   }
   if (kind == ConvertKind::scans) return scans_written(flags, target.ending);
   require(!flags.ascii && flags.number.empty(), "only for points, not for a surface", flags.ascii ? "--ascii" : "--number");
@@ -253,8 +255,8 @@ int convert_command(const Arguments& arguments) {
   parser.app().add_option("IN", flags.in, "file or run folder");
   parser.app().add_option("OUT", flags.out, "file to write");
   parser.flag("--ascii", flags.ascii, "numbers as text (points in .ply and .pcd)", "Points");
-  parser.option("--number", flags.number, "TYPE", "float or double (.ply and .pcd; default: float where it keeps every digit; PCL reads floats only)",
-                "Points");
+  parser.option("--number", flags.number, "TYPE",
+                "float or double (.ply and .pcd; default: float where it keeps every digit; PCL's types want float)", "Points");
   parser.option("--resolution", flags.resolution, "UNITS",
                 "coordinates become multiples of it (.las; 1e-9 .. 1000; default 0.0001, or the finest power of ten that fits the extent)", "Points");
   parser.option("--las", flags.las, "VERSION", "1.2 or 1.4 (default: 1.2, and 1.4 for more than 4,294,967,295 points)", "Points");

@@ -153,6 +153,10 @@ def test_a_field_is_the_same_in_vti_and_npy(vantage, tmp_path, run):
     assert set(arrays_of_vti(tmp_path / "psi.vti")[1]) == {"psi"}
     done = vantage("convert", run, tmp_path / "which.npy")
     assert done.returncode == 2 and "--array: is missing: one of state, psi, E" in done.stderr
+    done = vantage("convert", tmp_path / "psi.vti", tmp_path / "psi.bt")
+    assert done.returncode == 2 and "psi.vti: no array state in it, only psi" in done.stderr
+    done = vantage("convert", tmp_path / "psi.vti", tmp_path / "psi.bt", "--array", "psi")
+    assert done.returncode == 2 and "array psi: must be states" in done.stderr
 
 
 def leaves_of_bt(path):
@@ -261,7 +265,7 @@ REFUSED = [
     (["IN.xyz", "out.foo"], 2, "out.foo: .foo: must end in .ply"),
     (["IN.xyz", "out"], 2, "out: no ending: must end in"),
     (["IN.xyz", "out.laz"], 2, "vantage-convert IN.las OUT.laz"),
-    (["IN.xyz", "out.npy"], 2, "IN.xyz: holds scans, which goes to .ply .pcd .las .xyz .txt .asc .csv .geojson, not to .npy"),
+    (["IN.xyz", "out.npy"], 2, "IN.xyz: holds scans, written as .ply .pcd .las .xyz .txt .asc .csv .geojson, not as .npy"),
     (["IN.xyz", "out.geojson"], 2, "--crs EPSG:CODE is missing"),
     (["IN.xyz", "out.geojson", "--crs", "EPSG:25832"], 2, "no scan of it says where it was taken"),
     (["IN.xyz", "out.las", "--crs", "EPSG:4326"], 2, "--crs: EPSG:4326: must be a projected system"),
@@ -282,7 +286,7 @@ REFUSED = [
     (["set.toml", "out.ply"], 2, "neither scans (docs/12-files.md) nor a surface"),
     (["not.vti", "out.npy"], 2, "not.vti: not a VTK image"),
     ([".", "out.ply"], 2, "no run"),
-    (["mesh.ply", "out.las"], 2, "mesh.ply: holds a surface, which goes to .ply .obj .glb, not to .las"),
+    (["mesh.ply", "out.las"], 2, "mesh.ply: holds a surface, written as .ply .obj .glb, not as .las"),
     (["mesh.ply", "out.ply", "--ascii"], 2, "--ascii: only for points, not for a surface"),
     (["IN.xyz", "out.ply", "--fource"], 2, "unknown option: did you mean --force?"),
 ]

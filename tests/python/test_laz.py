@@ -76,7 +76,7 @@ def test_real_laz(data, tmp_path, vantage):
         (["a.xyz", "b.las"], 2, "a.xyz: must end in .las or .laz"),
         (["a.las", "a.las"], 2, "a.las: is there already; --force replaces it"),
         (["none.laz", "b.las"], 3, "none.laz: No such file"),
-        (["a.las", "none/b.laz"], 3, "No such file"),
+        (["a.las", "none/b.laz"], 3, "none/b.laz: No such file"),
         (["text.laz", "b.las"], 2, "text.laz: "),
         (["short.las", "b.laz"], 2, "short.las: "),
         (["short.laz", "b.las"], 2, "short.laz: "),

@@ -49,7 +49,10 @@ def convert(source, target, force=False):
     if target.exists() and not force:
         raise BadInput(f"{target}: is there already; --force replaces it")
     with open(source, "rb") as stream:
-        part = tempfile.NamedTemporaryFile(dir=target.parent, prefix=f"{target.name}.", suffix=f".part{ending}", delete=False)
+        try:
+            part = tempfile.NamedTemporaryFile(dir=target.parent, prefix=f"{target.name}.", suffix=f".part{ending}", delete=False)
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(target)) from error
         try:
             with part:
                 try:
