@@ -326,3 +326,23 @@ def test_help_names_every_ending(vantage):
     for ending in ("ply", "pcd", "las", "xyz", "csv", "geojson", "obj", "glb", "vti", "npy", "bt"):
         assert f".{ending}" in text
     assert ".vdb" not in text
+
+
+def test_info_knows_what_convert_wrote(vantage, tmp_path, run):
+    def told(path):
+        done = vantage("info", path, "--json")
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    convert(vantage, write(tmp_path / "utm.xyz", UTM), tmp_path / "utm.las", "--crs", "EPSG:25832")
+    assert told(tmp_path / "utm.las")["crs"] == "EPSG:25832"
+    convert(vantage, run, tmp_path / "state.npy", "--array", "state")
+    assert re.fullmatch(r"'\|u1', \(\d+, \d+, 1\)", told(tmp_path / "state.npy")["numpy"])
+    convert(vantage, run, tmp_path / "run.geojson", "--crs", "EPSG:25832")
+    assert told(tmp_path / "run.geojson") == {"kind": "map features", "crs": "urn:ogc:def:crs:EPSG::25832", "features": {"station": 3, "path": 1}}
+    convert(vantage, run, tmp_path / "belief.bt")
+    assert told(tmp_path / "belief.bt")["kind"] == "point cloud"
+    for text in ("", "[]", "{", '{"features": 1}', '{"features": [1, {"properties": null}], "crs": [1]}'):
+        done = vantage("info", write(tmp_path / "odd.geojson", text))
+        assert (done.returncode == 0) == text.startswith('{"features": ['), done.stderr
+        assert done.returncode == 0 or (done.returncode == 2 and done.stderr.count("\n") == 1)
