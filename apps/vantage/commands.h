@@ -10,6 +10,7 @@ using Arguments = std::vector<std::string>;
 /// Each runs one command and returns the exit code; bad input is thrown as vantage::Error.
 int audit_command(const Arguments& arguments);
 int config_command(const Arguments& arguments);
+int convert_command(const Arguments& arguments);
 int explore_command(const Arguments& arguments);
 int info_command(const Arguments& arguments);
 int merge_command(const Arguments& arguments);
@@ -41,5 +42,6 @@ inline constexpr Command kCommands[] = {
     {"paper", "NAME -o DIR", "a table or figure of the paper, made again", paper_command},
     {"scene", "NAME -o FILE | --list", "write a built-in scene, or list them", scene_command},
     {"info", "FILE | RUN", "what a file or a run folder holds", info_command},
+    {"convert", "IN OUT", "a scan, surface or field in another format", convert_command},
     {"config", "dump [SCENE]", "all options with unit, range and meaning, as TOML", config_command},
 };

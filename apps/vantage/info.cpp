@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kPurpose =
     "Says what a file or a run folder holds: point clouds (PLY, PCD, E57, LAS, PTX, KITTI .bin, OctoMap .bt, XYZ, CSV), surfaces,\n"
-    "exchanged maps, meshes, 2D maps, VTK images, scan logs, scenarios and runs.\n";
+    "exchanged maps, meshes, 2D maps, VTK images, NumPy arrays, GeoJSON, scan logs, scenarios and runs.\n";
 
 constexpr const char* kExamples =
     "  vantage info runs/town\n"

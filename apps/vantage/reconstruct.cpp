@@ -12,6 +12,7 @@
 #include "vantage/base/parallel.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/glb.h"
+#include "vantage/io/obj.h"
 #include "vantage/io/patch_file.h"
 #include "vantage/session/clouds.h"
 #include "vantage/session/result.h"
@@ -22,7 +23,8 @@ namespace {
 constexpr const char* kPurpose =
     "Fits surfaces to point clouds within a certified error: no measured point is farther than eta from the surface, and no place of the\n"
     "surface farther than eta from a point. Points that no surface explains stay as points. Reads PLY, PCD, XYZ, CSV, scan logs and run folders;\n"
-    "several clouds count as one. Writes .ply (polygons, segments and points with the error of each) or .glb. With --verify the certificate is\n"
+    "several clouds count as one. Writes .ply (polygons, segments and points with the error of each), .glb or .obj. With --verify the certificate "
+    "is\n"
     "compared with every point and every patch by a program of its own.\n";
 
 constexpr const char* kExamples =
@@ -54,6 +56,12 @@ vantage::CertificateReport verify(std::span<const vantage::ScannedPoints<Dim>> s
 }
 
 template <int Dim>
+std::string file_bytes(const std::vector<vantage::Patch<Dim>>& patches, const std::string& path) {
+  if (path.ends_with(".glb")) return vantage::surface_as_glb<Dim>(patches, {});
+  return path.ends_with(".obj") ? vantage::patches_as_obj<Dim>(patches) : vantage::patches_as_ply<Dim>(patches);
+}
+
+template <int Dim>
 Outcome reconstruct(const std::vector<vantage::ScannedPoints<Dim>>& scans, const vantage::SurfaceOptions& options, const Flags& flags) {
   const std::string& path = flags.path;
   vantage::Box<Dim> box;
@@ -65,8 +73,7 @@ Outcome reconstruct(const std::vector<vantage::ScannedPoints<Dim>>& scans, const
   vantage::HausdorffTree<Dim> tree(box.grown(0.001 * box.size().maxCoeff() + 1e-6), options);
   for (const vantage::ScannedPoints<Dim>& scan : scans) tree.insert(scan.points, scan.sensor);
   const std::vector<vantage::Patch<Dim>> patches = tree.patches();
-  if (!path.empty())
-    vantage::write_file(path, path.ends_with(".glb") ? vantage::surface_as_glb<Dim>(patches, {}) : vantage::patches_as_ply<Dim>(patches));
+  if (!path.empty()) vantage::write_file(path, file_bytes<Dim>(patches, path));
   Outcome outcome{to_json(tree.statistics()), {}};
   outcome.surface["dim"] = Dim;
   if (flags.verify) {
@@ -97,7 +104,7 @@ int reconstruct_command(const Arguments& arguments) {
   Flags flags;
   vantage::SurfaceOptions options;
   parser.app().add_option("CLOUD", clouds, "point clouds, scan logs or run folders");
-  parser.option("-o,--output", flags.path, "FILE", ".ply or .glb", "Output");
+  parser.option("-o,--output", flags.path, "FILE", ".ply, .glb or .obj", "Output");
   parser.flag("--json", flags.json, "print the figures as JSON", "Output");
   parser.flag("-q,--quiet", flags.quiet, "print nothing", "Output");
   for (const vantage::Option& option : list_options(options))
@@ -112,8 +119,8 @@ int reconstruct_command(const Arguments& arguments) {
   parser.option("--threads", flags.threads, "N", "at most so many threads (default: all cores)", "Method");
   if (!parser.parse(arguments)) return 0;
   vantage::require(!clouds.empty(), "CLOUD is missing");
-  vantage::require(flags.path.empty() || flags.path.ends_with(".ply") || flags.path.ends_with(".glb"),
-                   fmt::format("{}: must end in .ply or .glb", flags.path), "-o");
+  const bool known = flags.path.ends_with(".ply") || flags.path.ends_with(".glb") || flags.path.ends_with(".obj");
+  vantage::require(flags.path.empty() || known, fmt::format("{}: must end in .ply, .glb or .obj", flags.path), "-o");
   if (!flags.eta.empty()) sets.push_back("surface.eta=" + flags.eta);
   if (flags.paper) sets.emplace_back("surface.paper=true");
   set_options(list_options(options), "surface", sets);

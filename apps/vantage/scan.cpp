@@ -4,19 +4,21 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "convert_input.h"
 #include "numbers.h"
 #include "scenario_arguments.h"
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/point_cloud_file.h"
+#include "vantage/io/scan_writer.h"
 #include "vantage/session/result.h"
 #include "vantage/session/scan_log.h"
 
 namespace {
 
 constexpr const char* kPurpose =
-    "Takes one simulated scan of a scene and writes its points (.ply, .xyz), or the whole scan with the rays that met nothing (.log,\n"
-    "as in a run folder).\n";
+    "Takes one simulated scan of a scene and writes its points (.ply, .pcd with the place as VIEWPOINT, .las, .xyz, .csv), or the whole\n"
+    "scan with the rays that met nothing (.log, as in a run folder).\n";
 
 constexpr const char* kExamples =
     "  vantage scan town --at 20,-35,1.5 -o scan.ply\n"
@@ -25,8 +27,10 @@ constexpr const char* kExamples =
 template <int Dim>
 std::string file_bytes(const vantage::Scan<Dim>& scan, const std::string& path) {
   if (path.ends_with(".log")) return vantage::scans_as_log<Dim>(std::span(&scan, 1));
-  const std::vector<vantage::Vec<Dim>> points = vantage::hit_points(scan);
-  return path.ends_with(".xyz") ? vantage::points_as_xyz<Dim>(points) : vantage::points_as_ply<Dim>(points);
+  const std::string_view format = *vantage::written_scan_format(path);
+  if (format == "PLY") return vantage::points_as_ply<Dim>(vantage::hit_points(scan));
+  const vantage::MeasuredScan measured = as_measured(scan);
+  return vantage::scans_as(format, std::span(&measured, 1)).bytes;
 }
 
 template <int Dim>
@@ -47,14 +51,14 @@ int scan_command(const Arguments& arguments) {
   std::string at, path;
   bool json = false, quiet = false;
   parser.option("--at", at, "x,y,z", "where the scanner stands [m] (2D: x,y; default: the scene's start)", "Scan");
-  parser.option("-o,--output", path, "FILE", ".ply, .xyz or .log", "Scan");
+  parser.option("-o,--output", path, "FILE", ".ply, .pcd, .las, .xyz, .csv or .log", "Scan");
   parser.flag("--json", json, "print what was written as JSON", "Output");
   parser.flag("-q,--quiet", quiet, "print nothing", "Output");
   ScenarioArguments scenario(parser);
   if (!parser.parse(arguments)) return 0;
   vantage::require(!scenario.scene().empty(), "SCENE is missing: vantage scene --list names some");
-  vantage::require(path.ends_with(".ply") || path.ends_with(".xyz") || path.ends_with(".log"),
-                   fmt::format("{}: must end in .ply, .xyz or .log", path), "-o");
+  vantage::require(path.ends_with(".log") || vantage::written_scan_format(path).has_value(),
+                   fmt::format("{}: must end in .ply, .pcd, .las, .xyz, .csv or .log", path), "-o");
   const vantage::World world = make_world(scenario.scene(), scenario.settings());
   const std::vector<double> place = at.empty() ? world.scenario.start : numbers("--at", at);
   const vantage::Json result = std::visit([&](const auto& scene) { return take_scan(world, scene, place, path); }, world.scene);

@@ -73,4 +73,4 @@ def test_scans_of_a_file_are_told_apart(vantage, tmp_path):
 
 def test_a_compressed_las_says_who_decompresses_it(vantage, data):
     result = vantage("info", data("las_sample/autzen_trim.laz"))
-    assert result.returncode == 2 and "vantage convert" in result.stderr and len(result.stderr.splitlines()) == 1
+    assert result.returncode == 2 and "`vantage-convert IN.laz OUT.las`" in result.stderr and len(result.stderr.splitlines()) == 1

@@ -141,7 +141,7 @@ TABLE = [
     # scan
     (["scan"], 2, "SCENE is missing"),
     (["scan", "planar", "--at", "2,2"], 2, "-o"),
-    (["scan", "planar", "--at", "2,2", "-o", "out.las"], 2, "out.las: must end in"),
+    (["scan", "planar", "--at", "2,2", "-o", "out.e57"], 2, "out.e57: must end in"),
     (["scan", "planar", "--at", "2", "-o", "out.ply"], 2, "--at"),
     (["scan", "planar", "--at", "2,2,2", "-o", "out.ply"], 2, "--at: 3 numbers"),
     (["scan", "planar", "--at", "x,2", "-o", "out.ply"], 2, "--at"),

@@ -53,7 +53,9 @@ LasHeader parse_header(const FileBytes& file) {
   if (major != 1 || header.minor > 4) file.fail(24, fmt::format("LAS {}.{}: must be 1.0 to 1.4", major, header.minor));
   const auto format = file.number<std::uint8_t>(104, "the header");
   if ((format & 0xc0) != 0)
-    file.fail(104, "compressed (LAZ): decompress it first, by `vantage convert` of the Python package or another tool; this program reads LAS");
+    file.fail(
+        104,
+        "compressed (LAZ): `vantage-convert IN.laz OUT.las` of the Python package (pip install ./python) decompresses it; this program reads LAS");
   header.format = format;
   header.points_begin = file.number<std::uint32_t>(96, "the header");
   header.record = file.number<std::uint16_t>(105, "the header");
@@ -79,6 +81,7 @@ std::vector<MeasuredScan> parse_las(FileBytes file) {
     columns[static_cast<std::size_t>(a)] =
         NumberColumn{static_cast<std::size_t>(4 * a), header.record, NumberType::int32, header.scale[a], header.offset[a]};
   scan.points = widen_points(data, header.points, columns, file.where());
+  scan.epsg = las_epsg(file);
   return {std::move(scan)};
 }
 

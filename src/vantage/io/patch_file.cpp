@@ -65,8 +65,14 @@ class PatchReader {
       add(edges, i, ends, 2);
     }
   }
+  /// Points with errors of their own; other files may call something else a point.
+  void add_points(const Ply::Element& points) {
+    const Ply::Property* vertex = points.find("vertex");
+    if (vertex == nullptr || vertex->count_type) return;
+    for (std::size_t i = 0; i < points.count; ++i) add(points, i, {&vertex->values[i], 1}, 1);
+  }
   /// Vertices that belong to nothing else stand for themselves.
-  void add_points() {
+  void add_other_points() {
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       if (used_[i]) continue;
       require(vertices_[i].allFinite(), fmt::format("vertex {}: coordinates must be finite", i), where_);
@@ -108,7 +114,8 @@ std::vector<Patch<Dim>> patches_of(const Ply& ply, std::string_view where) {
     if (faces->count > 0) reader.add_faces(*faces);
   }
   if (const Ply::Element* edges = ply.find("edge"); edges != nullptr && edges->count > 0) reader.add_edges(*edges);
-  reader.add_points();
+  if (const Ply::Element* points = ply.find("point"); points != nullptr) reader.add_points(*points);
+  reader.add_other_points();
   return reader.take();
 }
 
@@ -137,7 +144,7 @@ std::string patches_as_ply(std::span<const Patch<Dim>> patches) {
 }
 
 AnyPatches parse_patches(std::string_view bytes, std::string_view where) {
-  const Ply ply = parse_ply_columns(bytes, where, [](std::string_view element, std::string_view) { return element != "point"; });
+  const Ply ply = parse_ply_columns(bytes, where, [](std::string_view, std::string_view) { return true; });
   const Ply::Element* vertex = ply.find("vertex");
   require(vertex != nullptr && is_axis(vertex->find("x")) && is_axis(vertex->find("y")), "no vertices with x and y", where);
   const bool plane = std::find(ply.comments.begin(), ply.comments.end(), kPlaneComment) != ply.comments.end();

@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/base/error.h"
+#include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
 #include "vantage/io/glb.h"
+#include "vantage/io/mesh_file.h"
+#include "vantage/io/obj.h"
 
 namespace vantage {
 namespace {
@@ -31,7 +34,9 @@ std::vector<Patch<3>> some_patches<3>() {
   polygon.vertices = {Vec<3>(6e6 + 0.125, 0, 1), Vec<3>(6e6 + 1, 0, 1), Vec<3>(6e6 + 1, 1, 1), Vec<3>(6e6, 1, 1)};
   polygon.data_to_surface = 0.03F;
   polygon.surface_to_data = 0.04F;
-  return {polygon, segment_patch<3>({1, 2, 3}, {4, 5, 6}), point_patch<3>({7, 8, 9})};
+  std::vector<Patch<3>> patches{polygon, segment_patch<3>({1, 2, 3}, {4, 5, 6}), point_patch<3>({7, 8, 9})};
+  patches[2].data_to_surface = 0.05F;
+  return patches;
 }
 
 template <class Dimension>
@@ -73,8 +78,36 @@ TYPED_TEST(PatchFiles, GlbIsWellFormed) {
   EXPECT_EQ(vertices, (Dim == 3 ? std::map<int, int>{{0, 1}, {1, 2}, {3, 2}, {4, 6}} : std::map<int, int>{{0, 1}, {1, 2}, {3, 2}}));
 }
 
+TYPED_TEST(PatchFiles, ObjHasEveryCorner) {
+  constexpr int Dim = TypeParam::value;
+  const std::string obj = patches_as_obj<Dim>(some_patches<Dim>());
+  EXPECT_EQ(obj, Dim == 3 ? "# vantage: metres, z up\nv 6000000.125 0 1\nv 6000001 0 1\nv 6000001 1 1\nv 6000000 1 1\nv 1 2 3\nv 4 5 6\nv 7 8 9\n"
+                            "f 1 2 3 4\nl 5 6\np 7\n"
+                          : "# vantage: metres, z up\nv 6000000.125 1 0\nv 6000001 2 0\nv 3 4 0\nl 1 2\np 3\n");
+}
+
+/// The reader of meshes finds the triangles of the polygons where they are.
+TEST(PatchFile, MeshReadersFindThePolygonsInPlace) {
+  const std::filesystem::path folder = testing::TempDir();
+  const std::vector<Patch<3>> patches = some_patches<3>();
+  const std::pair<std::string, std::string> files[] = {{"patches_test.obj", patches_as_obj<3>(patches)},
+                                                       {"patches_test.glb", surface_as_glb<3>(std::span(patches).first(1), {})}};
+  for (const auto& [name, bytes] : files) {
+    const std::filesystem::path path = folder / name;
+    write_file(path, bytes);
+    const Mesh<3> mesh = read_mesh(path);
+    EXPECT_EQ(mesh.facets.size(), 2U) << name;
+    // A reader that multiplies by the node's transform in floats is off by their steps at 6000 km.
+    const double tolerance = name.ends_with(".obj") ? 0.0 : 0.51;
+    EXPECT_LE((mesh.bounds().low - Vec<3>(6e6, 0, 1)).cwiseAbs().maxCoeff(), tolerance) << name;
+    EXPECT_LE((mesh.bounds().high - Vec<3>(6e6 + 1, 1, 1)).cwiseAbs().maxCoeff(), tolerance) << name;
+    std::filesystem::remove(path);
+  }
+}
+
 TYPED_TEST(PatchFiles, NothingIsAlsoAFile) {
   constexpr int Dim = TypeParam::value;
+  EXPECT_EQ(patches_as_obj<Dim>({}), "# vantage: metres, z up\n");
   EXPECT_TRUE(std::get<std::vector<Patch<Dim>>>(parse_patches(patches_as_ply<Dim>({}), "a.ply")).empty());
   EXPECT_EQ(surface_as_glb<Dim>({}, {}).substr(0, 4), "glTF");
 }
@@ -89,6 +122,9 @@ TEST(PatchFile, RefusesWhatIsNoPatch) {
       {head + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "2 corners"},
       {head + "0 0 0\n1 0 0\n0 1 0\n9 0 1 2 0 1 2 0 1 2\n", "9 corners"},
       {head + "0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", "vertex 1: coordinates must be finite"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement point 1\nproperty int "
+       "vertex\nend_header\n0 0 0\n1\n",
+       "point 0: vertex 1 of 1"},
       {"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n", "without z"},
   };
   for (const auto& [bytes, message] : table) {

@@ -30,6 +30,7 @@ struct MeasuredScan {
   std::optional<Vec<3>> position;  ///< Of the scanner in the same frame; none: the file does not say [file's unit].
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< World from sensor.
   std::optional<RayTable> rays;                                     ///< If the file keeps the order of the rays.
+  std::optional<int> epsg;                                          ///< Code of a projected coordinate system, where a LAS file names one.
 };
 
 /// All scans of a point cloud file of any format of docs/12-files.md; an E57 may hold none. Throws io, or bad_input naming `FILE:OFFSET` (text:

@@ -109,7 +109,7 @@ TEST(ScanFile, LargeCoordinatesKeepTheirDigits) {
 
 TEST(ScanFile, WrongLasFilesAreRefusedWithTheirPlace) {
   const std::string good = samples::las(2, 3, few_points());
-  EXPECT_NE(error_of(with<std::uint8_t>(good, 104, 0x83), "a.laz").find("vantage convert"), std::string::npos);
+  EXPECT_NE(error_of(with<std::uint8_t>(good, 104, 0x83), "a.laz").find("vantage-convert IN.laz OUT.las"), std::string::npos);
   EXPECT_NE(error_of(with<std::uint32_t>(good, 107, 6), "a.las").find("a.las:232: 6 points of 34 bytes exceed"), std::string::npos);
   EXPECT_NE(error_of(with<std::uint32_t>(good, 96, 100), "a.las").find("points begin at byte 100"), std::string::npos);
   EXPECT_NE(error_of(with<std::uint16_t>(good, 105, 33), "a.las").find("records of 33 bytes"), std::string::npos);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +11,9 @@ namespace vantage {
 
 /// ASPRS LAS 1.0 to 1.4, point formats 0 to 10: coordinates by scale and offset. LAZ is told and refused. Throws bad_input naming `where:offset`.
 [[nodiscard]] std::vector<MeasuredScan> parse_las(FileBytes file);
+
+/// The EPSG code of a LAS file's projected coordinate system, from its GeoTIFF keys or its WKT; none: it names none, or not by a code.
+[[nodiscard]] std::optional<int> las_epsg(FileBytes file);
 
 /// Leica PTX, several scans a file: columns, rows, a rigid motion, then a line per ray; `0 0 0` is no return. Throws bad_input naming `where:line`.
 [[nodiscard]] std::vector<MeasuredScan> parse_ptx(std::string_view bytes, std::string_view where);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <pugixml.hpp>
 
 #include "vantage/base/error.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 1 << 20;
 constexpr int kCompressionLevel = 3;
+constexpr double kMostNodes = 2147483647.0;  // Along an axis, counted from node 0.
 
 std::string deflated(std::string_view block) {
   uLongf size = compressBound(block.size());
@@ -90,9 +92,13 @@ ImageInfo parse_vti_header(std::string_view bytes, std::string_view where) {
   const std::vector<double> extent = numbers_of(image.attribute("WholeExtent").value());
   require(image && extent.size() == 6, "not a VTK image: no ImageData with a WholeExtent", where);
   ImageInfo info;
+  for (const double last : extent)
+    require(std::abs(last) <= kMostNodes, fmt::format("WholeExtent {}: must be within +-{}", fmt::join(extent, " "), kMostNodes), where);
   for (std::size_t a = 0; a < 3; ++a) info.nodes.push_back(static_cast<std::int64_t>(extent[2 * a + 1] - extent[2 * a]) + 1);
   info.origin = numbers_of(image.attribute("Origin").value());
   info.spacing = numbers_of(image.attribute("Spacing").value());
+  // The origin is node 0's, the image begins where the extent does.
+  for (std::size_t a = 0; a < std::min(info.origin.size(), info.spacing.size()) && a < 3; ++a) info.origin[a] += info.spacing[a] * extent[2 * a];
   for (const pugi::xml_node& array : image.child("Piece").child("PointData").children("DataArray"))
     info.arrays.push_back({array.attribute("Name").value(), array.attribute("type").value()});
   return info;

@@ -35,4 +35,19 @@ struct ImageInfo {
 /// Throws bad_input naming `where`.
 [[nodiscard]] ImageInfo parse_vti_header(std::string_view bytes, std::string_view where);
 
+/// One value a node, axis 0 fastest.
+struct LatticeArray {
+  std::string name;
+  std::variant<std::vector<std::uint8_t>, std::vector<float>> values;
+};
+/// A .vti with its values.
+struct LatticeImage {
+  Grid<3> window;  ///< A plane is one layer.
+  std::vector<LatticeArray> arrays;
+};
+
+/// Reads what `image_as_vti` wrote. Every size is checked against the bytes there before memory is taken. Throws bad_input naming `where`, also for
+/// other encodings and types of VTK and for nodes that are not multiples of one spacing.
+[[nodiscard]] LatticeImage parse_vti(std::string_view bytes, std::string_view where);
+
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
+#include "vantage/io/npy.h"
 #include "vantage/io/patch_file.h"
 #include "vantage/io/ply_file.h"
 #include "vantage/io/scan_file.h"
@@ -36,6 +37,7 @@ Json scan_json(const MeasuredScan& scan) {
   for (const Vec<3>& p : scan.points) box.extend(p);
   Json json = {{"points", scan.points.size()}, {"not_finite", scan.not_finite}, {"bounds", bounds_json(box)}};
   if (scan.position) json["position"] = to_json<3>(*scan.position);
+  if (scan.epsg) json["crs"] = fmt::format("EPSG:{}", *scan.epsg);
   if (scan.rays) {
     const auto count = [&](std::int32_t what) { return std::count(scan.rays->point.begin(), scan.rays->point.end(), what); };
     json["rays"] = {
@@ -107,6 +109,22 @@ Json inspect_image(const fs::path& path) {
   return {{"kind", "lattice"}, {"nodes", info.nodes}, {"origin_m", info.origin}, {"spacing_m", info.spacing}, {"arrays", arrays}};
 }
 
+/// A member, or nothing where there is none.
+Json member(const Json& json, const char* name) { return json.is_object() && json.contains(name) ? json[name] : Json(); }
+
+Json inspect_features(const fs::path& path) {
+  const Json map = Json::parse(read_file(path), nullptr, false), features = member(map, "features");
+  require(features.is_array(), "not GeoJSON: no features", path.string());
+  Json count = Json::object();
+  for (const Json& feature : features) {
+    const Json kind = member(member(feature, "properties"), "kind");
+    const std::string name = kind.is_string() ? kind.get<std::string>() : "other";
+    count[name] = count.value(name, 0) + 1;
+  }
+  const Json crs = member(member(member(map, "crs"), "properties"), "name");
+  return {{"kind", "map features"}, {"crs", crs.is_string() ? crs : Json("WGS 84")}, {"features", count}};
+}
+
 Json inspect_scene(const fs::path& path) {
   return std::visit(
       []<int Dim>(const Scene<Dim>& scene) -> Json {
@@ -175,6 +193,8 @@ Json inspect(const fs::path& path) {
   if (head.starts_with("ply")) return inspect_ply(path);
   const std::string extension = path.extension().string();
   if (extension == ".vti") return inspect_image(path);
+  if (extension == ".npy") return {{"kind", "array"}, {"numpy", describe_npy(read_file(path), path.string())}};
+  if (extension == ".geojson") return inspect_features(path);
   if (extension == ".toml") return inspect_scenario(path);
   if (scan_format(head, path.string())) return inspect_points(path);
   return inspect_scene(path);
