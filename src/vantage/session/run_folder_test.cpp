@@ -65,7 +65,8 @@ TEST_F(RunFolders, WhatMayBeUsedHow) {
 
 TEST_F(RunFolders, AFolderThatIsNotKeptGoesWithItsParents) {
   {
-    const NewFolder folder(root_ / "a/b/run/");
+    NewFolder folder(root_ / "a/b/run/");
+    folder.own();
     write_file(root_ / "a/b/run/x", "x");
   }
   EXPECT_EQ(names(), std::vector<std::string>{});
@@ -77,7 +78,8 @@ TEST_F(RunFolders, AFolderThatIsNotKeptGoesWithItsParents) {
 TEST_F(RunFolders, AnEmptyFolderStaysEmpty) {
   fs::create_directories(root_ / "empty");
   {
-    const NewFolder folder(root_ / "empty");
+    NewFolder folder(root_ / "empty");
+    folder.own();
     write_file(root_ / "empty/x", "x");
   }
   EXPECT_EQ(names(), std::vector<std::string>{"empty"});
@@ -87,7 +89,8 @@ TEST_F(RunFolders, AReplacedRunComesBackUnlessTheNewOneIsKept) {
   const fs::path path = run("old");
   const std::vector<std::string> before = names();
   {
-    const NewFolder folder(path);
+    NewFolder folder(path);
+    folder.own();
     write_file(path / "x", "x");
   }
   EXPECT_EQ(names(), before);
