@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 
 bool is_vacant(const fs::path& folder) {
   std::error_code error;
-  return !fs::exists(folder, error) || (fs::is_directory(folder, error) && fs::is_empty(folder, error));
+  const bool exists = fs::exists(folder, error);
+  if (error) throw Error(ErrorCode::io, "cannot be read: " + error.message(), folder.string());
+  return !exists || (fs::is_directory(folder, error) && fs::is_empty(folder, error));
 }
 
 /// The name without a slash at its end, which would count as a name of its own.
