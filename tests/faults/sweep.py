@@ -30,7 +30,7 @@ from pathlib import Path
 
 PROGRAM = Path(__file__).resolve().parents[2] / "build/dev/bin/vantage"
 CALLS = "openat,read,pread64,write,pwrite64,fsync,fdatasync,ftruncate,rename,renameat,renameat2,close,mkdir,mkdirat,unlink,unlinkat,rmdir,link,linkat,flock,newfstatat,getdents64"
-ERRORS = ("ENOSPC", "EIO")
+READING = ("read", "pread64", "newfstatat", "getdents64")
 SCENE = ["discs", "--grid", "24", "--step-deg", "4", "--threads", "1", "--set", "explore.snapshots=false"]
 OLD_SCENE = ["discs", "--grid", "20", "--step-deg", "4", "--threads", "1"]
 SCANS = "10"
@@ -195,12 +195,12 @@ class Bench:
         return Force(name, self, start, lambda root: ["explore", *SCENE, "--max-scans", "3", "--force", "-o", str(root / "run")])
 
     def clouds(self):
-        """Two scans of a hall, as files."""
+        """Two scans, as files."""
         places = ("3,3,1.5", "7,6,1.5")
         files = [self.folder / f"cloud{k}.ply" for k in range(2)]
         for file, place in zip(files, places):
             if not file.exists():
-                self.must("scan", "office", "--step-deg", 8, "--at", place, "-o", file, "-q")
+                self.must("scan", "pipes:cylinders=3", "--step-deg", 8, "--at", place, "-o", file, "-q")
         return [str(file) for file in files], places
 
     def first(self, name, start):
@@ -255,7 +255,10 @@ def check_fault(case, site, kind, result):
         need(result.returncode in (-9, 137), f"was not killed: exit code {result.returncode}")
     elif result.returncode == 0:
         need(broken_lines(result.stderr) == [], f"an error and exit code 0: {result.stderr}")
-        need(content(case.root) == case.reference, "exit code 0, but the result is not whole")
+        now = content(case.root)
+        if site.call in ("unlink", "unlinkat", "getdents64", "openat", "kill"):  # What a stopped process left may stay until the next time.
+            now = {name: data for name, data in now.items() if not name.endswith(".part")}
+        need(now == case.reference, "exit code 0, but the result is not whole")
     else:
         # What a folder holds cannot be told where its entries cannot be looked up.
         codes = (2, 3) if site.call == "newfstatat" else (3,)
@@ -318,13 +321,18 @@ def sample(sites, share):
     return [site for k, site in enumerate(sites) if k % step == step // 2 or site is first[site.call]]
 
 
+def kinds(site):
+    """What may befall a call. One that only reads cannot meet a full disk, and leaves nothing that the next call would not."""
+    return ("EIO",) if site.call in READING else ("ENOSPC", "EIO", "KILL")
+
+
 def sweep(bench, cases, share, say):
     """All faults; returns their number and the failures."""
     faults, failures = 0, []
     for case in bench.cases(cases):
         begin, sites = time.monotonic(), sites_of(case)
         chosen, bad = sample(sites, share), 0
-        tries = [(site, kind) for k, site in enumerate(chosen) for j, kind in enumerate((*ERRORS, "KILL")) if share >= 1.0 or j == k % 3]
+        tries = [(site, kind) for site in chosen for kind in kinds(site)] if share >= 1.0 else [(site, kinds(site)[k % len(kinds(site))]) for k, site in enumerate(chosen)]
         for site, kind in tries:
             reason = try_site(case, site, kind)
             if reason is not None:

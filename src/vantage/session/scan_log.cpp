@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kMagic = "VANTSCAN", kRecordMagic = "SCAN";
 constexpr std::uint32_t kVersion1 = 1;
-constexpr std::size_t kHeaderBytes = 16, kRecordHeaderBytes = 16;
+constexpr std::size_t kHeaderBytes = 16, kRecordHeaderBytes = 16, kIndexBytes = 4;
 
 [[noreturn]] void fail_at(const std::filesystem::path& path, std::uint64_t offset, const std::string& message) {
   throw Error(ErrorCode::bad_input, message, fmt::format("{}:{}", path.string(), offset));
@@ -36,7 +36,7 @@ int parse_header(std::string_view bytes, const std::filesystem::path& path) {
   return static_cast<int>(dim);
 }
 
-constexpr std::size_t payload_head_bytes(int dim) { return 4 + 8 * static_cast<std::size_t>(dim + dim * dim + 5) + 8; }
+constexpr std::size_t payload_head_bytes(int dim) { return kIndexBytes + 8 * static_cast<std::size_t>(dim + dim * dim + 5) + 8; }
 
 template <int Dim>
 std::string payload_bytes(const Scan<Dim>& scan, int index) {
@@ -224,11 +224,34 @@ Scan<Dim> ScanLog<Dim>::read(int index) const {
 
 template <int Dim>
   requires SpatialDim<Dim>
+std::optional<int> ScanLog<Dim>::find(const Scan<Dim>& scan) const {
+  for (int index = 0; index < size(); ++index) {
+    const Record& record = records_[static_cast<std::size_t>(index)];
+    const std::string wanted = payload_bytes(scan, index);
+    if (record.length == wanted.size() && file_.read(record.offset, record.length) == wanted) return index;
+  }
+  return std::nullopt;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::uint32_t ScanLog<Dim>::fingerprint(int index) const {
+  const Record& record = records_.at(static_cast<std::size_t>(index));
+  return checksum(file_.read(record.offset + kIndexBytes, record.length - kIndexBytes));
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
 void ScanLog<Dim>::append(const Scan<Dim>& scan) {
   const std::string record = record_bytes(scan, size());
   file_.append(end_, record);
   records_.push_back({end_ + kRecordHeaderBytes, static_cast<std::uint32_t>(record.size() - kRecordHeaderBytes)});
   end_ += record.size();
+}
+
+template <int Dim>
+std::uint32_t scan_fingerprint(const Scan<Dim>& scan) {
+  return checksum(payload_bytes(scan, 0).substr(kIndexBytes));
 }
 
 bool is_empty_log(const std::filesystem::path& path) {
@@ -268,6 +291,8 @@ void remove_scans(const std::filesystem::path& path, std::span<const int> indice
 
 template class ScanLog<2>;
 template class ScanLog<3>;
+template std::uint32_t scan_fingerprint<2>(const Scan<2>&);
+template std::uint32_t scan_fingerprint<3>(const Scan<3>&);
 template std::string scans_as_log<2>(std::span<const Scan<2>>);
 template std::string scans_as_log<3>(std::span<const Scan<3>>);
 template void remove_scans<2>(const std::filesystem::path&, std::span<const int>);

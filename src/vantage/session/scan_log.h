@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ class ScanLog {
 
   [[nodiscard]] int size() const { return static_cast<int>(records_.size()); }
   [[nodiscard]] Scan<Dim> read(int index) const;
+  /// The scan that is the same bit for bit, if there is one.
+  [[nodiscard]] std::optional<int> find(const Scan<Dim>& scan) const;
+  /// Checksum of a scan, whatever its number.
+  [[nodiscard]] std::uint32_t fingerprint(int index) const;
   /// Returns once the scan is on the disk; throws io, and the log is as before.
   void append(const Scan<Dim>& scan);
 
@@ -53,6 +58,10 @@ class ScanLog {
   std::uint64_t end_ = 0;
   std::vector<Record> records_;
 };
+
+/// As ScanLog::fingerprint.
+template <int Dim>
+[[nodiscard]] std::uint32_t scan_fingerprint(const Scan<Dim>& scan);
 
 /// Whether the file at `path` is what `create` leaves when it is stopped: the header or a part of it.
 [[nodiscard]] bool is_empty_log(const std::filesystem::path& path);
