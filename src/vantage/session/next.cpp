@@ -414,7 +414,8 @@ class MeasuredRun {
     }
     for (const int k : kept_) {
       const std::string sum = fmt::format("{:08x}", log_->fingerprint(k));
-      const auto known = std::find_if(before.begin(), before.end(), [&](const Json& entry) { return entry.is_object() && entry.value("crc32", "") == sum; });
+      const auto known =
+          std::find_if(before.begin(), before.end(), [&](const Json& entry) { return entry.is_object() && entry.value("crc32", "") == sum; });
       inputs.push_back(known != before.end() ? *known : Json({{"name", fmt::format("scan {}", k)}, {"crc32", sum}}));
     }
     for (const MeasuredInput& input : added_) inputs.push_back(input_json(input));
@@ -461,8 +462,8 @@ NextOutcome find_next(const NextRequest& given, Observer* observer) {
     return std::visit([&](const auto& scene) { return of_explored(request, world, scene, observer); }, world.scene);
   }
   if (!exists && !request.folder.empty()) {
-    require(!is_run_folder(request.folder) || has_only_begun(request.folder), fmt::format("a run is there already: vantage next {} FILE adds a scan to it", request.folder.string()),
-            request.folder.string());
+    require(!is_run_folder(request.folder) || has_only_begun(request.folder),
+            fmt::format("a run is there already: vantage next {} FILE adds a scan to it", request.folder.string()), request.folder.string());
     check_run_folder(request.folder, FolderMode::fresh);
   }
   return MeasuredRun(request, files, exists, observer).go();

@@ -168,7 +168,8 @@ RunOutcome run_exploration(const RunRequest& given, RunObserver* observer) {
   require(!request.max_scans || *request.max_scans >= 1, fmt::format("--max-scans {}: must be >= 1", request.max_scans.value_or(0)));
   if (request.folder.empty()) request.folder = default_folder(request.scene);
   if (restore_replaced_run(request.folder) && observer != nullptr)
-    observer->warn(fmt::format("{}: the run that was to be replaced is back: the new one was stopped before its first scan", request.folder.string()));
+    observer->warn(
+        fmt::format("{}: the run that was to be replaced is back: the new one was stopped before its first scan", request.folder.string()));
   if (request.mode == FolderMode::resume && !request.scene.empty() && has_only_begun(request.folder)) request.mode = FolderMode::fresh;
   check_run_folder(request.folder, request.mode);
   const ThreadLimit limit(request.threads);

@@ -260,9 +260,7 @@ bool is_empty_log(const std::filesystem::path& path) {
   return bytes.size() <= kHeaderBytes && (zeros || kMagic.starts_with(bytes.substr(0, kMagic.size())));
 }
 
-int scan_log_dim(const std::filesystem::path& path) {
-  return parse_header(LogFile(path, LogFile::Access::read).read(0, kHeaderBytes), path);
-}
+int scan_log_dim(const std::filesystem::path& path) { return parse_header(LogFile(path, LogFile::Access::read).read(0, kHeaderBytes), path); }
 
 template <int Dim>
 std::string scans_as_log(std::span<const Scan<Dim>> scans) {
