@@ -257,9 +257,8 @@ def check_fault(case, site, kind, result):
         need(result.returncode in (-9, 137), f"was not killed: exit code {result.returncode}")
     elif result.returncode == 0:
         need(broken_lines(result.stderr) == [], f"an error and exit code 0: {result.stderr}")
-        now = content(case.root)
-        if site.call in ("unlink", "unlinkat", "getdents64", "openat", "kill"):  # What a stopped process left may stay until the next time.
-            now = {name: data for name, data in now.items() if not name.endswith(".part")}
+        # What a stopped process has left may stay until the next time.
+        now = {name: data for name, data in content(case.root).items() if not name.endswith(".part")}
         need(now == case.reference, "exit code 0, but the result is not whole")
     else:
         # What a folder holds cannot be told where its entries cannot be looked up.

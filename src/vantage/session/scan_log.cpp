@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
@@ -59,6 +60,8 @@ std::string payload_bytes(const Scan<Dim>& scan, int index) {
 template <int Dim>
 std::string record_bytes(const Scan<Dim>& scan, int index) {
   const std::string payload = payload_bytes(scan, index);
+  if (payload.size() > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorCode::limit, fmt::format("scan {}: {} bytes: must be less than 4 GiB", index, payload.size()));
   std::string out(kRecordMagic);
   put<std::uint32_t>(out, static_cast<std::uint32_t>(payload.size()));
   put<std::uint32_t>(out, checksum(payload));
