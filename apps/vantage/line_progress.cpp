@@ -4,26 +4,35 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
+
 #include "progress.h"
+
+namespace {
+
+/// The command goes on even if nobody can be told.
+void put(const std::string& text) {
+  static_cast<void>(std::fputs(text.c_str(), stderr));
+  std::fflush(stderr);
+}
+
+}  // namespace
 
 LineProgress::LineProgress(bool quiet) : quiet_(quiet), live_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
 
 LineProgress::~LineProgress() {
   if (!live_) return;
-  fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
+  put("\r\033[K");
 }
 
 void LineProgress::stage(std::string_view name) {
   if (!live_) return;
-  fmt::print(stderr, "\r\033[K{}", name);
-  std::fflush(stderr);
+  put(fmt::format("\r\033[K{}", name));
 }
 
 void LineProgress::warn(std::string_view message) {
   if (quiet_) return;
-  fmt::print(stderr, "{}vantage: warning: {}\n", live_ ? "\r\033[K" : "", message);
-  std::fflush(stderr);
+  put(fmt::format("{}vantage: warning: {}\n", live_ ? "\r\033[K" : "", message));
 }
 
 bool LineProgress::stop_requested() { return StopSignals::raised(); }

@@ -51,7 +51,7 @@ int dispatch(const Arguments& all) {
 /// One line, whatever the message holds.
 int report(vantage::ErrorCode code, std::string message) {
   std::replace_if(message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  fmt::print(stderr, "vantage: {}\n", message);
+  static_cast<void>(std::fputs(("vantage: " + message + "\n").c_str(), stderr));  // If even that fails, the exit code says it.
   return static_cast<int>(code);
 }
 
@@ -60,7 +60,7 @@ int report(vantage::ErrorCode code, std::string message) {
 int main(int argc, char** argv) {
   try {
     const int code = dispatch(Arguments(argv + 1, argv + argc));
-    return std::fflush(stdout) == 0 ? code : report(vantage::ErrorCode::io, "the output cannot be written");
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? code : report(vantage::ErrorCode::io, "the output cannot be written");
   } catch (const vantage::Error& error) {
     return report(error.code(), error.what());
   } catch (const std::bad_alloc&) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 
 #include "numbers.h"
@@ -44,6 +45,9 @@ std::string bar(double share, std::size_t width) {
   for (std::size_t i = (eighths + 7) / 8; i < width; ++i) out += "·";
   return out;
 }
+
+/// The run goes on even if nobody can be told.
+void put(const std::string& text) { static_cast<void>(std::fputs(text.c_str(), stderr)); }
 
 std::string percent(double share) {
   // Never 100.0 % while anything is missing.
@@ -137,11 +141,11 @@ bool RunProgress::stop_requested() { return StopSignals::raised(); }
 
 void RunProgress::print_line(const std::string& line) {
   clear();
-  fmt::print(stderr, "{}\n", line);
+  put(line + "\n");
 }
 
 void RunProgress::clear() {
-  if (drawn_) fmt::print(stderr, "\r\033[K");
+  if (drawn_) put("\r\033[K");
   drawn_ = false;
   std::fflush(stderr);
 }
@@ -149,7 +153,7 @@ void RunProgress::clear() {
 void RunProgress::draw() {
   const std::size_t width = terminal_width();
   if (width < 20) return;
-  fmt::print(stderr, "\r\033[K{}", live_line(width - 1));
+  put("\r\033[K" + live_line(width - 1));
   drawn_ = true;
   std::fflush(stderr);
 }

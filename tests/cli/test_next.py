@@ -207,3 +207,19 @@ def test_corridor(vantage, data, tmp_path):
     answer = ask(vantage, *scans, "--poses", data("corridor_tls/poses.csv"))
     assert answer["scans"] == 6 and answer["ranked"] and answer["ranked"][0]["new_volume_m3"] > 10
     assert answer["vantage"][2] == pytest.approx(0.0, abs=0.7)  # As high as the tripod stood.
+
+
+def test_a_scan_that_is_there_is_not_added_twice(vantage, scan, tmp_path):
+    """A command that was stopped can be given again; another place or another file is another scan."""
+    a, b = scan(2, 3, 1.5), scan(8, 3, 1.5)
+    run = tmp_path / "run"
+    assert vantage("next", a, "--at", "2,3,1.5", "--domain", DOMAIN, *COARSE, "-o", run, "-q").returncode == 0
+    assert vantage("next", run, b, "--at", "8,3,1.5", "-q").returncode == 0
+    before = {path.name: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    result = vantage("next", run, b, "--at", "8,3,1.5")
+    assert result.returncode == 0 and f"{b.name}: is scan 1 of the run already, and not added again" in result.stderr
+    assert {path.name: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+    assert ask(vantage, run, a, "--at", "2,3,1.6")["scans"] == 3
+    assert ask(vantage, run, b, "--at", "8,3,1.5", "--remove", 1)["scans"] == 3
+    names = [entry["name"] for entry in json.loads((run / "manifest.json").read_text())["inputs"]]
+    assert names == [a.name, a.name, b.name]

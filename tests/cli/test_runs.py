@@ -119,11 +119,29 @@ def test_one_process_at_a_time(vantage, scene, tmp_path):
             break
     process.send_signal(signal.SIGSTOP)
     try:
-        result = vantage("explore", "--resume", "-o", run)
-        assert result.returncode == 3 and "another process" in result.stderr
+        before = (run / "scans.log").read_bytes()
+        for arguments in (["--resume"], [*scene, "--resume"], [*scene, "--force"], ["--resume", "--remove", 0]):
+            result = vantage("explore", *arguments, "-o", run)
+            assert result.returncode == 3 and result.stderr == f"vantage: {run}/scans.log: another process (pid {process.pid}) is writing this run\n"
+        assert (run / "scans.log").read_bytes() == before and [path.name for path in tmp_path.iterdir()] == ["run"]
     finally:
         process.kill()
         process.communicate(timeout=60)
+
+
+def test_a_run_stopped_before_its_first_scan_begins_again(vantage, scene, straight, tmp_path):
+    for name, files in {"log": [], "scenario": ["scenario.toml"], "all": ["scenario.toml", "manifest.json"]}.items():
+        run = tmp_path / name
+        run.mkdir()
+        (run / "scans.log").write_bytes((straight / "scans.log").read_bytes()[:16])
+        (run / "scenario.toml.2147483647-1.part").write_bytes(b"[sc")
+        for file in files:
+            (run / file).write_bytes((straight / file).read_bytes())
+        alone = vantage("explore", "--resume", "--max-scans", 6, "-o", run)
+        assert alone.returncode == (0 if name == "all" else 2)
+        assert name == "all" or alone.stderr == f"vantage: {run}: the run was stopped before its first scan: name its SCENE to begin again\n"
+        assert vantage("explore", *scene, "--resume", "--max-scans", 6, "-o", run, "-q").returncode == 0
+        assert content(run) == content(straight)
 
 
 def test_remove_takes_a_scan_out(vantage, straight, tmp_path):

@@ -2,6 +2,9 @@
 #include "vantage/io/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
 
 #include "vantage/base/error.h"
 #include "vantage/io/test_data.h"
@@ -40,6 +43,33 @@ TEST(AtomicFile, LeavesNothingBehindWhenItFails) {
   EXPECT_EQ(read_file(folder / "a/inner"), "kept");
   EXPECT_THROW(write_file(folder / "none/b", "x"), Error);
   EXPECT_THROW((void)read_file(folder / "none"), Error);
+}
+
+TEST(AtomicFile, WhatStoppedProcessesLeftIsRemoved) {
+  const ScratchFolder folder;
+  const std::string own = std::to_string(::getpid()), dead = "2147483647";  // No process has so high a number.
+  for (const std::string& name : {"a." + own + "-1.part", "a.ply." + dead + "-12.part"}) write_file(folder / name, "");
+  const std::vector<std::string> kept = {"a.part", "a.1-1.part", "a." + dead + "-.part", "a." + dead + "-x.part", "a." + dead + "-1", "a.-1-1.part"};
+  for (const std::string& name : kept) write_file(folder / name, "");
+  remove_stale_parts(folder / "");
+  EXPECT_EQ(files_in(folder / ""), kept.size());
+  for (const std::string& name : kept) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  remove_stale_parts(folder / "missing");
+}
+
+TEST(AtomicFile, NamesThatAnEarlierProcessOfTheSameNumberLeftAreNoHindrance) {
+  const ScratchFolder folder;
+  const std::string stem = (folder / "a").string() + "." + std::to_string(::getpid()) + "-";
+  for (int k = 0; k < 300; ++k) std::ofstream(stem + std::to_string(k) + ".part") << "old";
+  write_file(folder / "a", "new");
+  EXPECT_EQ(read_file(folder / "a"), "new");
+  EXPECT_EQ(files_in(folder / ""), 301U);
+}
+
+TEST(AtomicFile, AMissingFolderCannotBeSynced) {
+  const ScratchFolder folder;
+  sync_folder(folder / "");
+  EXPECT_THROW(sync_folder(folder / "missing"), Error);
 }
 
 }  // namespace

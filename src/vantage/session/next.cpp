@@ -218,6 +218,7 @@ class MeasuredRun {
     if (exists_) {
       settings_ = read_scenario(request.folder / run_file::kNextSettings);
       log_.emplace(ScanLog<3>::open(request.folder / run_file::kScanLog, observer));
+      clean_run_folder(request.folder);
     }
     settings_.insert(settings_.end(), request.settings.begin(), request.settings.end());
     setup_ = next_setup(settings_);
@@ -229,8 +230,9 @@ class MeasuredRun {
       added_ = read_measured(files, request.poses, setup_.measured, range);
       outcome_.notes.push_back(no_return_note(added_, setup_.measured));
     }
-    require(files.empty() == added_.empty() && scans() > 0, "no scans are left", request.folder.string());
     for (const MeasuredInput& input : added_) outcome_.inputs.push_back(input_line(input));
+    skip_known();
+    require(scans() > 0, "no scans are left", request.folder.string());
   }
 
   NextOutcome go() {
@@ -263,6 +265,17 @@ class MeasuredRun {
       require(index >= 0 && index < size, fmt::format("--remove {}: must be 0 .. {}", index, size - 1), request_.folder.string());
     for (int k = 0; k < size; ++k)
       if (std::find(request_.remove.begin(), request_.remove.end(), k) == request_.remove.end()) kept_.push_back(k);
+  }
+  /// A scan that is in the folder already, bit for bit, is not added again: a command may be given again after it was stopped.
+  void skip_known() {
+    if (!exists_) return;
+    std::erase_if(added_, [this](const MeasuredInput& input) {
+      const std::optional<int> known = log_->find(input.scan);
+      if (!known || std::find(kept_.begin(), kept_.end(), *known) == kept_.end()) return false;
+      known_.push_back(input_json(input));
+      if (observer_ != nullptr) observer_->warn(fmt::format("{}: is scan {} of the run already, and not added again", input.name, *known));
+      return true;
+    });
   }
   [[nodiscard]] int scans() const { return static_cast<int>(kept_.size() + added_.size()); }
   [[nodiscard]] Scan<3> scan(int k) const {
@@ -357,10 +370,14 @@ class MeasuredRun {
     const fs::path path = request_.folder / run_file::kScanLog;
     if (!exists_) {
       fresh.emplace(request_.folder);
-      write_file(request_.folder / run_file::kScenario, scenario_as_toml(setup_.scenario, false));
+      log_.emplace(ScanLog<3>::create(path));  // First, for whoever holds the log has the folder.
+      fresh->own();
       write_file(request_.folder / run_file::kNextSettings, settings_as_toml(settings_));
-      log_.emplace(ScanLog<3>::create(path));
-    } else if (!request_.remove.empty()) {
+      write_file(request_.folder / run_file::kScenario, scenario_as_toml(setup_.scenario, false));
+    }
+    const Json inputs = inputs_json();
+    if (!added_.empty()) write_file(request_.folder / run_file::kManifest, as_text({{"inputs", inputs}}));  // The log does not hold the names.
+    if (!request_.remove.empty()) {
       log_.reset();
       remove_scans<3>(path, request_.remove);
       log_.emplace(ScanLog<3>::open(path, observer_));
@@ -368,7 +385,7 @@ class MeasuredRun {
     for (const MeasuredInput& input : added_) log_->append(input.scan);
     if (fresh) fresh->keep();
     write_file(request_.folder / run_file::kNextSettings, settings_as_toml(settings_));
-    const NextFigures<3> figures{answer.ranked, answer.verdict, outcome_.notes, inputs_json()};
+    const NextFigures<3> figures{answer.ranked, answer.verdict, outcome_.notes, inputs};
     save_outputs<3>(request_.folder, {setup_.scenario, scene_, explorer, *log_, &figures}, observer_);
     write_file(request_.folder / run_file::kNext, as_text(outcome_.json));
     write_file(request_.folder / run_file::kNextTable, next_csv(answer));
@@ -376,24 +393,32 @@ class MeasuredRun {
     outcome_.report = true;
   }
 
-  /// The files of all scans: those the manifest knows, without the removed, and the new ones.
+  static Json input_json(const MeasuredInput& input) {
+    return {{"name", input.name},
+            {"format", input.format},
+            {"points", input.report.points},
+            {"pose", input.pose},
+            {"step_deg", degrees(input.report.step)},
+            {"left_out", {{"near", input.report.near}, {"far", input.report.far}, {"not_finite", input.not_finite}}},
+            {"crc32", fmt::format("{:08x}", scan_fingerprint<3>(input.scan))}};
+  }
+
+  /// The files of all scans: those the manifest knows, by their checksums, without the removed, and the new ones.
   [[nodiscard]] Json inputs_json() const {
-    Json before = Json::array(), inputs = Json::array();
+    Json before = known_, inputs = Json::array();
     const fs::path manifest = request_.folder / run_file::kManifest;
     if (exists_ && fs::exists(manifest)) {
       const Json saved = Json::parse(read_file(manifest), nullptr, false);
-      if (saved.is_object() && saved.contains("inputs") && saved["inputs"].is_array()) before = saved["inputs"];
+      if (saved.is_object() && saved.contains("inputs") && saved["inputs"].is_array())
+        before.insert(before.end(), saved["inputs"].begin(), saved["inputs"].end());
     }
-    for (const int k : kept_)
-      inputs.push_back(static_cast<std::size_t>(k) < before.size() ? before[static_cast<std::size_t>(k)]
-                                                                   : Json({{"name", fmt::format("scan {}", k)}}));
-    for (const MeasuredInput& input : added_)
-      inputs.push_back({{"name", input.name},
-                        {"format", input.format},
-                        {"points", input.report.points},
-                        {"pose", input.pose},
-                        {"step_deg", degrees(input.report.step)},
-                        {"left_out", {{"near", input.report.near}, {"far", input.report.far}, {"not_finite", input.not_finite}}}});
+    for (const int k : kept_) {
+      const std::string sum = fmt::format("{:08x}", log_->fingerprint(k));
+      const auto known =
+          std::find_if(before.begin(), before.end(), [&](const Json& entry) { return entry.is_object() && entry.value("crc32", "") == sum; });
+      inputs.push_back(known != before.end() ? *known : Json({{"name", fmt::format("scan {}", k)}, {"crc32", sum}}));
+    }
+    for (const MeasuredInput& input : added_) inputs.push_back(input_json(input));
     return inputs;
   }
 
@@ -405,6 +430,7 @@ class MeasuredRun {
   std::optional<ScanLog<3>> log_;
   std::vector<int> kept_;
   std::vector<MeasuredInput> added_;
+  Json known_ = Json::array();  ///< Of scans that were named but are there already.
   Scene<3> scene_;
   NextOutcome outcome_;
 };
@@ -416,7 +442,9 @@ NextOutcome find_next(const NextRequest& given, Observer* observer) {
   require(!request.inputs.empty(), "no scans are named: point clouds, or a run folder");
   const ThreadLimit limit(request.threads);
   std::span<const fs::path> files(request.inputs);
-  const bool exists = is_run_folder(request.inputs.front());
+  if (restore_replaced_run(request.inputs.front()) && observer != nullptr)
+    observer->warn(fmt::format("{}: the run that was to be replaced is back", request.inputs.front().string()));
+  const bool exists = is_run_folder(request.inputs.front()) && !has_only_begun(request.inputs.front());
   if (exists) {
     require(request.folder.empty() || fs::weakly_canonical(request.folder) == fs::weakly_canonical(request.inputs.front()),
             "-o: the scans are added to the folder that is named first", request.inputs.front().string());
@@ -434,8 +462,8 @@ NextOutcome find_next(const NextRequest& given, Observer* observer) {
     return std::visit([&](const auto& scene) { return of_explored(request, world, scene, observer); }, world.scene);
   }
   if (!exists && !request.folder.empty()) {
-    require(!is_run_folder(request.folder), fmt::format("a run is there already: vantage next {} FILE adds a scan to it", request.folder.string()),
-            request.folder.string());
+    require(!is_run_folder(request.folder) || has_only_begun(request.folder),
+            fmt::format("a run is there already: vantage next {} FILE adds a scan to it", request.folder.string()), request.folder.string());
     check_run_folder(request.folder, FolderMode::fresh);
   }
   return MeasuredRun(request, files, exists, observer).go();

@@ -5,7 +5,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 
+#include "vantage/base/error.h"
 #include "vantage/base/version.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
@@ -32,8 +35,26 @@ class Folder {
     write_file(path_ / name, bytes);
     checksums_[name] = {{"bytes", bytes.size()}, {"crc32", fmt::format("{:08x}", checksum(bytes))}};
   }
+  void make(const std::string& name) const {
+    std::error_code error;
+    fs::create_directories(path_ / name, error);
+    if (error) throw Error(ErrorCode::io, "the folder cannot be made: " + error.message(), (path_ / name).string());
+  }
+  /// Removes the clouds of scans from number `size` on, which have been taken out of the log.
+  void forget_scans(int size) const {
+    std::error_code error;
+    std::vector<fs::path> gone;
+    for (fs::directory_iterator it(path_ / run_file::kScans, error), end; !error && it != end; it.increment(error)) {
+      const std::string name = it->path().filename().string(), stem = it->path().stem().string();
+      int number = 0;
+      const auto [rest, failed] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+      if (failed == std::errc() && number >= size && name == fmt::format("{:03}.ply", number)) gone.push_back(it->path());
+    }
+    for (const fs::path& path : gone)
+      if (!error) fs::remove(path, error);
+    if (error) throw Error(ErrorCode::io, "clouds of removed scans are left: " + error.message(), (path_ / run_file::kScans).string());
+  }
   [[nodiscard]] const Json& checksums() const { return checksums_; }
-  [[nodiscard]] const fs::path& path() const { return path_; }
 
  private:
   fs::path path_;
@@ -63,8 +84,7 @@ Eigen::Quaterniond rotation(const Scan<Dim>& scan) {
 /// Exports the scans one by one (a log may be larger than the memory) and keeps a share of their points for the report.
 template <int Dim>
 std::vector<std::vector<Vec<Dim>>> save_scans(Folder& folder, const RunOutputs<Dim>& run) {
-  const fs::path scans = folder.path() / run_file::kScans;
-  fs::create_directories(scans);
+  folder.make(run_file::kScans);
   std::size_t total = 0;
   for (const StepRecord<Dim>& step : run.explorer.steps()) total += static_cast<std::size_t>(step.points);
   const std::size_t stride = std::max<std::size_t>(1, (total + kReportPoints - 1) / kReportPoints);
@@ -80,8 +100,7 @@ std::vector<std::vector<Vec<Dim>>> save_scans(Folder& folder, const RunOutputs<D
     for (std::size_t k = 0; k < points.size(); k += stride) some.push_back(points[k]);
   }
   folder.write(run_file::kStations, stations);
-  for (int i = run.log.size(); fs::remove(scans / fmt::format("{:03}.ply", i)); ++i) {
-  }  // Of scans taken out of the log.
+  folder.forget_scans(run.log.size());
   return kept;
 }
 

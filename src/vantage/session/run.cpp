@@ -55,12 +55,18 @@ class Run {
  private:
   LoggedSensor<Dim> make_sensor() {
     const fs::path log = request_.folder / run_file::kScanLog;
-    if (request_.mode == FolderMode::resume) return LoggedSensor<Dim>(lidar_, ScanLog<Dim>::open(log, observer_));
+    if (request_.mode == FolderMode::resume) {
+      ScanLog<Dim> opened = ScanLog<Dim>::open(log, observer_);
+      clean_run_folder(request_.folder);
+      return LoggedSensor<Dim>(lidar_, std::move(opened));
+    }
     return LoggedSensor<Dim>(lidar_, [this, log] {  // The first scan has succeeded: only now is there something to keep.
       new_folder_.emplace(request_.folder);
+      ScanLog<Dim> created = ScanLog<Dim>::create(log);  // First, for whoever holds the log has the folder.
+      new_folder_->own();
       write_file(request_.folder / run_file::kScenario, scenario_as_toml(scenario_, false));
       write_file(request_.folder / run_file::kManifest, as_text(manifest_json(scenario_, scene_)));
-      return ScanLog<Dim>::create(log);
+      return created;
     });
   }
 
@@ -161,6 +167,10 @@ RunOutcome run_exploration(const RunRequest& given, RunObserver* observer) {
   require(request.remove.empty() || request.mode == FolderMode::resume, "--remove: only with --resume");
   require(!request.max_scans || *request.max_scans >= 1, fmt::format("--max-scans {}: must be >= 1", request.max_scans.value_or(0)));
   if (request.folder.empty()) request.folder = default_folder(request.scene);
+  if (restore_replaced_run(request.folder) && observer != nullptr)
+    observer->warn(
+        fmt::format("{}: the run that was to be replaced is back: the new one was stopped before its first scan", request.folder.string()));
+  if (request.mode == FolderMode::resume && !request.scene.empty() && has_only_begun(request.folder)) request.mode = FolderMode::fresh;
   check_run_folder(request.folder, request.mode);
   const ThreadLimit limit(request.threads);
   const World world = request.mode == FolderMode::resume ? resumed_world(request) : make_world(request.scene, request.settings);

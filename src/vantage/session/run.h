@@ -59,8 +59,9 @@ struct RunOutcome {
   double seconds = 0.0;  ///< Wall time.
 };
 
-/// Explores a scene into a run folder, or goes on with one: the same bytes (but timing.json) come out however often a run was interrupted, and
-/// for any number of threads. On bad input nothing is left behind. Throws bad_input, io, memory.
+/// Explores a scene into a run folder, or goes on with one (or, of a named scene, begins again one that was stopped before its first scan): the same
+/// bytes (but timing.json) come out however often a run was interrupted, and for any number of threads. On bad input nothing is left behind. Throws
+/// bad_input, io, memory.
 [[nodiscard]] RunOutcome run_exploration(const RunRequest& request, RunObserver* observer = nullptr);
 
 }  // namespace vantage

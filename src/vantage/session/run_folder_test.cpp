@@ -65,7 +65,8 @@ TEST_F(RunFolders, WhatMayBeUsedHow) {
 
 TEST_F(RunFolders, AFolderThatIsNotKeptGoesWithItsParents) {
   {
-    const NewFolder folder(root_ / "a/b/run/");
+    NewFolder folder(root_ / "a/b/run/");
+    folder.own();
     write_file(root_ / "a/b/run/x", "x");
   }
   EXPECT_EQ(names(), std::vector<std::string>{});
@@ -77,7 +78,8 @@ TEST_F(RunFolders, AFolderThatIsNotKeptGoesWithItsParents) {
 TEST_F(RunFolders, AnEmptyFolderStaysEmpty) {
   fs::create_directories(root_ / "empty");
   {
-    const NewFolder folder(root_ / "empty");
+    NewFolder folder(root_ / "empty");
+    folder.own();
     write_file(root_ / "empty/x", "x");
   }
   EXPECT_EQ(names(), std::vector<std::string>{"empty"});
@@ -87,7 +89,8 @@ TEST_F(RunFolders, AReplacedRunComesBackUnlessTheNewOneIsKept) {
   const fs::path path = run("old");
   const std::vector<std::string> before = names();
   {
-    const NewFolder folder(path);
+    NewFolder folder(path);
+    folder.own();
     write_file(path / "x", "x");
   }
   EXPECT_EQ(names(), before);
@@ -98,6 +101,71 @@ TEST_F(RunFolders, AReplacedRunComesBackUnlessTheNewOneIsKept) {
     folder.keep();
   }
   EXPECT_EQ(names(), (std::vector<std::string>{"old", "old/x"}));
+}
+
+TEST_F(RunFolders, ARunThatOnlyBeganMakesRoom) {
+  const fs::path path = root_ / "begun";
+  fs::create_directories(path);
+  EXPECT_FALSE(has_only_begun(path));
+  write_file(path / run_file::kScenario, "mine");
+  EXPECT_FALSE(has_only_begun(path));  // Without a log it may be anybody's.
+  write_file(path / run_file::kScanLog, "VANTSC");
+  write_file(path / "manifest.json.1-1.part", "{");
+  EXPECT_TRUE(has_only_begun(path));
+  EXPECT_NO_THROW(check_run_folder(path, FolderMode::fresh));
+  EXPECT_THROW(check_run_folder(path, FolderMode::resume), Error);
+  NewFolder folder(path);
+  const LogFile log(path / run_file::kScanLog, LogFile::Access::create);
+  folder.own();
+  folder.keep();
+  EXPECT_EQ(names(), (std::vector<std::string>{"begun", "begun/scans.log"}));
+  write_file(path / "note.txt", "mine");
+  EXPECT_FALSE(has_only_begun(path));
+}
+
+TEST_F(RunFolders, ARunThatWasSetAsideAndForgottenComesBack) {
+  const fs::path path = run("old"), aside = root_ / "old.replaced.part";
+  const std::vector<std::string> before = names();
+  EXPECT_FALSE(restore_replaced_run(path));
+  fs::rename(path, aside);  // As a process does that is killed then,
+  EXPECT_TRUE(restore_replaced_run(path));
+  EXPECT_EQ(names(), before);
+  fs::rename(path, aside);  // or a little later.
+  fs::create_directory(path);
+  write_file(path / run_file::kScanLog, "VANT");
+  EXPECT_TRUE(restore_replaced_run(path));
+  EXPECT_EQ(names(), before);
+  EXPECT_EQ(read_file(path / run_file::kScenario), "old");
+}
+
+TEST_F(RunFolders, AReplacedRunGoesOnceTheNewOneStands) {
+  const fs::path path = run("old");
+  fs::rename(path, root_ / "old.replaced.part");
+  static_cast<void>(run("old"));
+  const std::vector<std::string> kept{"old", "old/scans.log", "old/scenario.toml"};
+  EXPECT_FALSE(restore_replaced_run(path));
+  write_file(path / "surface.ply.2147483647-3.part", "");
+  clean_run_folder(path);
+  EXPECT_EQ(names(), kept);
+}
+
+TEST_F(RunFolders, ARunThatIsWrittenIsNotReplaced) {
+  const fs::path path = run("old");
+  const std::vector<std::string> before = names();
+  const LogFile writer(path / run_file::kScanLog, LogFile::Access::write);
+  EXPECT_THROW(NewFolder{path}, Error);
+  fs::rename(path, root_ / "old.replaced.part");
+  EXPECT_THROW(static_cast<void>(restore_replaced_run(path)), Error);
+  fs::rename(root_ / "old.replaced.part", path);
+  EXPECT_EQ(names(), before);
+}
+
+TEST_F(RunFolders, AFolderThatAnotherTookMeanwhileStays) {
+  {
+    const NewFolder folder(root_ / "run");
+    write_file(root_ / "run" / run_file::kScanLog, "of another process");
+  }
+  EXPECT_EQ(names(), (std::vector<std::string>{"run", "run/scans.log"}));
 }
 
 TEST_F(RunFolders, AFolderThatCannotBeMadeIsAnIoError) {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/session/scan_log.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <utility>
+#include <limits>
 
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
@@ -21,11 +15,7 @@ namespace {
 
 constexpr std::string_view kMagic = "VANTSCAN", kRecordMagic = "SCAN";
 constexpr std::uint32_t kVersion1 = 1;
-constexpr std::size_t kHeaderBytes = 16, kRecordHeaderBytes = 16;
-
-[[noreturn]] void fail_io(const std::filesystem::path& path, std::string_view what) {
-  throw Error(ErrorCode::io, fmt::format("{}: {}", what, std::strerror(errno)), path.string());
-}
+constexpr std::size_t kHeaderBytes = 16, kRecordHeaderBytes = 16, kIndexBytes = 4;
 
 [[noreturn]] void fail_at(const std::filesystem::path& path, std::uint64_t offset, const std::string& message) {
   throw Error(ErrorCode::bad_input, message, fmt::format("{}:{}", path.string(), offset));
@@ -47,7 +37,7 @@ int parse_header(std::string_view bytes, const std::filesystem::path& path) {
   return static_cast<int>(dim);
 }
 
-constexpr std::size_t payload_head_bytes(int dim) { return 4 + 8 * static_cast<std::size_t>(dim + dim * dim + 5) + 8; }
+constexpr std::size_t payload_head_bytes(int dim) { return kIndexBytes + 8 * static_cast<std::size_t>(dim + dim * dim + 5) + 8; }
 
 template <int Dim>
 std::string payload_bytes(const Scan<Dim>& scan, int index) {
@@ -70,6 +60,8 @@ std::string payload_bytes(const Scan<Dim>& scan, int index) {
 template <int Dim>
 std::string record_bytes(const Scan<Dim>& scan, int index) {
   const std::string payload = payload_bytes(scan, index);
+  if (payload.size() > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorCode::limit, fmt::format("scan {}: {} bytes: must be less than 4 GiB", index, payload.size()));
   std::string out(kRecordMagic);
   put<std::uint32_t>(out, static_cast<std::uint32_t>(payload.size()));
   put<std::uint32_t>(out, checksum(payload));
@@ -136,39 +128,14 @@ std::string parse_payload(std::string_view bytes, int index, Scan<Dim>& scan) {
   return bytes.size() == image ? std::string() : parse_points<Dim>(reader, (bytes.size() - image - 8) / 8, scan);
 }
 
-std::string read_at(int file, const std::filesystem::path& path, std::uint64_t offset, std::size_t length) {
-  std::string bytes(length, '\0');
-  std::size_t done = 0;
-  while (done < length) {
-    const ssize_t got = ::pread(file, bytes.data() + done, length - done, static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail_io(path, "cannot be read");
-    if (got == 0) break;
-    done += static_cast<std::size_t>(got);
-  }
-  bytes.resize(done);
-  return bytes;
-}
-
-bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    offset += static_cast<std::uint64_t>(written);
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-std::uint64_t file_bytes(int file, const std::filesystem::path& path) {
-  struct stat status{};
-  if (::fstat(file, &status) != 0) fail_io(path, "cannot be read");
-  return static_cast<std::uint64_t>(status.st_size);
-}
-
-void lock(int file, const std::filesystem::path& path) {
-  if (::flock(file, LOCK_EX | LOCK_NB) != 0) throw Error(ErrorCode::io, "another process is writing this run", path.string());
+/// Whether a record of the right length but a wrong checksum was only half on the disk when the machine stopped: whole sectors of the file, or its
+/// last bytes, are zeros still. Anything else was changed later.
+bool is_half_written(std::string_view record, std::uint64_t offset) {
+  constexpr std::uint64_t kSector = 512;
+  if (record.empty() || record.back() == '\0') return true;
+  for (std::uint64_t at = (kSector - offset % kSector) % kSector; at + kSector <= record.size(); at += kSector)
+    if (record.substr(at, kSector).find_first_not_of('\0') == std::string_view::npos) return true;
+  return false;
 }
 
 }  // namespace
@@ -176,11 +143,16 @@ void lock(int file, const std::filesystem::path& path) {
 template <int Dim>
   requires SpatialDim<Dim>
 ScanLog<Dim> ScanLog<Dim>::create(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) fail_io(path, "cannot be made");
-  ScanLog log(path, file);
-  lock(file, path);
-  if (!write_at(file, 0, header_bytes(Dim)) || ::fsync(file) != 0) fail_io(path, "cannot be written");
+  ScanLog log(LogFile(path, LogFile::Access::create));
+  if (!is_empty_log(path)) throw Error(ErrorCode::io, "cannot be made: a log is there already", path.string());
+  try {
+    log.file_.append(0, header_bytes(Dim));
+    log.file_.sync();
+  } catch (const Error&) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    throw;
+  }
   log.end_ = kHeaderBytes;
   return log;
 }
@@ -188,44 +160,30 @@ ScanLog<Dim> ScanLog<Dim>::create(const std::filesystem::path& path) {
 template <int Dim>
   requires SpatialDim<Dim>
 ScanLog<Dim> ScanLog<Dim>::open(const std::filesystem::path& path, Observer* observer) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) fail_io(path, "cannot be opened");
-  ScanLog log(path, file);
-  lock(file, path);
-  const std::uint64_t size = file_bytes(file, path), end = log.list_records(size);
-  if (end == size) return log;
-  if (::ftruncate(file, static_cast<off_t>(end)) != 0 || ::fsync(file) != 0) fail_io(path, "cannot be cut");
-  if (observer != nullptr)
-    observer->warn(fmt::format("{}:{}: the last scan was not written to its end; {} bytes are cut off", path.string(), end, size - end));
+  ScanLog log(LogFile(path, LogFile::Access::write));
+  const std::uint64_t size = log.file_.size(), end = log.list_records(size);
+  if (end < size) {
+    log.file_.cut(end);
+    if (observer != nullptr)
+      observer->warn(fmt::format("{}:{}: the last scan was not written to its end; {} bytes are cut off", path.string(), end, size - end));
+  }
+  log.file_.sync();  // Whoever wrote the last record may have been stopped before it did.
   return log;
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
 ScanLog<Dim> ScanLog<Dim>::open_to_read(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail_io(path, "cannot be opened");
-  ScanLog log(path, file);
-  log.list_records(file_bytes(file, path));
+  ScanLog log(LogFile(path, LogFile::Access::read));
+  log.list_records(log.file_.size());
   return log;
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
-ScanLog<Dim>::ScanLog(ScanLog&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), end_(other.end_), records_(std::move(other.records_)) {}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-ScanLog<Dim>::~ScanLog() {
-  if (file_ >= 0) ::close(file_);
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
 std::uint64_t ScanLog<Dim>::list_records(std::uint64_t bytes) {
-  const int dim = parse_header(read_at(file_, path_, 0, kHeaderBytes), path_);
-  if (dim != Dim) fail_at(path_, 12, fmt::format("a log of {} dimensions: {} are wanted", dim, Dim));
+  const int dim = parse_header(file_.read(0, kHeaderBytes), file_.path());
+  if (dim != Dim) fail_at(file_.path(), 12, fmt::format("a log of {} dimensions: {} are wanted", dim, Dim));
   end_ = kHeaderBytes;
   while (end_ < bytes && list_record(bytes)) {
   }
@@ -236,22 +194,22 @@ template <int Dim>
   requires SpatialDim<Dim>
 bool ScanLog<Dim>::list_record(std::uint64_t bytes) {
   const std::uint64_t left = bytes - end_;
-  const std::string head = read_at(file_, path_, end_, kRecordHeaderBytes);
+  const std::string head = file_.read(end_, kRecordHeaderBytes);
   if (head.size() < kRecordHeaderBytes) return false;
   if (head.substr(0, 4) != kRecordMagic || get<std::uint32_t>(head, 12) != checksum(head.substr(0, 12))) {
     // A machine that stops may leave zeros where the record was to go on; anything else is damage.
-    if (read_at(file_, path_, end_, left).find_first_not_of('\0', kRecordHeaderBytes) == std::string::npos) return false;
-    fail_at(path_, end_, "the scan log is damaged: no record begins here");
+    if (file_.read(end_, left).find_first_not_of('\0', kRecordHeaderBytes) == std::string::npos) return false;
+    fail_at(file_.path(), end_, "the scan log is damaged: no record begins here");
   }
   const auto length = get<std::uint32_t>(head, 4);
   if (length > left - kRecordHeaderBytes) return false;
-  const std::string payload = read_at(file_, path_, end_ + kRecordHeaderBytes, length);
+  const std::string payload = file_.read(end_ + kRecordHeaderBytes, length);
   if (checksum(payload) != get<std::uint32_t>(head, 8)) {
-    if (length == left - kRecordHeaderBytes) return false;
-    fail_at(path_, end_, fmt::format("the scan log is damaged: the checksum of scan {} is wrong", size()));
+    if (length == left - kRecordHeaderBytes && is_half_written(payload, end_ + kRecordHeaderBytes)) return false;
+    fail_at(file_.path(), end_, fmt::format("the scan log is damaged: the checksum of scan {} is wrong", size()));
   }
   Scan<Dim> scan;
-  if (const std::string reason = parse_payload(payload, size(), scan); !reason.empty()) fail_at(path_, end_, reason);
+  if (const std::string reason = parse_payload(payload, size(), scan); !reason.empty()) fail_at(file_.path(), end_, reason);
   records_.push_back({end_ + kRecordHeaderBytes, length});
   end_ += kRecordHeaderBytes + length;
   return true;
@@ -262,32 +220,50 @@ template <int Dim>
 Scan<Dim> ScanLog<Dim>::read(int index) const {
   const Record& record = records_.at(static_cast<std::size_t>(index));
   Scan<Dim> scan;
-  const std::string reason = parse_payload(read_at(file_, path_, record.offset, record.length), index, scan);
-  if (!reason.empty()) fail_at(path_, record.offset, reason);
+  const std::string reason = parse_payload(file_.read(record.offset, record.length), index, scan);
+  if (!reason.empty()) fail_at(file_.path(), record.offset, reason);
   return scan;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::optional<int> ScanLog<Dim>::find(const Scan<Dim>& scan) const {
+  for (int index = 0; index < size(); ++index) {
+    const Record& record = records_[static_cast<std::size_t>(index)];
+    const std::string wanted = payload_bytes(scan, index);
+    if (record.length == wanted.size() && file_.read(record.offset, record.length) == wanted) return index;
+  }
+  return std::nullopt;
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+std::uint32_t ScanLog<Dim>::fingerprint(int index) const {
+  const Record& record = records_.at(static_cast<std::size_t>(index));
+  return checksum(file_.read(record.offset + kIndexBytes, record.length - kIndexBytes));
 }
 
 template <int Dim>
   requires SpatialDim<Dim>
 void ScanLog<Dim>::append(const Scan<Dim>& scan) {
   const std::string record = record_bytes(scan, size());
-  if (!write_at(file_, end_, record) || ::fsync(file_) != 0) {
-    const int reason = errno;
-    static_cast<void>(::ftruncate(file_, static_cast<off_t>(end_)));
-    errno = reason;
-    fail_io(path_, "cannot be written");
-  }
+  file_.append(end_, record);
   records_.push_back({end_ + kRecordHeaderBytes, static_cast<std::uint32_t>(record.size() - kRecordHeaderBytes)});
   end_ += record.size();
 }
 
-int scan_log_dim(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail_io(path, "cannot be opened");
-  const std::string head = read_at(file, path, 0, kHeaderBytes);
-  ::close(file);
-  return parse_header(head, path);
+template <int Dim>
+std::uint32_t scan_fingerprint(const Scan<Dim>& scan) {
+  return checksum(payload_bytes(scan, 0).substr(kIndexBytes));
 }
+
+bool is_empty_log(const std::filesystem::path& path) {
+  const std::string bytes = LogFile(path, LogFile::Access::read).read(0, kHeaderBytes + 1);
+  const bool zeros = bytes.find_first_not_of('\0') == std::string::npos;  // Of a machine that stopped.
+  return bytes.size() <= kHeaderBytes && (zeros || kMagic.starts_with(bytes.substr(0, kMagic.size())));
+}
+
+int scan_log_dim(const std::filesystem::path& path) { return parse_header(LogFile(path, LogFile::Access::read).read(0, kHeaderBytes), path); }
 
 template <int Dim>
 std::string scans_as_log(std::span<const Scan<Dim>> scans) {
@@ -299,14 +275,12 @@ std::string scans_as_log(std::span<const Scan<Dim>> scans) {
 
 template <int Dim>
 void remove_scans(const std::filesystem::path& path, std::span<const int> indices) {
+  const ScanLog<Dim> log = ScanLog<Dim>::open(path);  // Held until the new one stands in its place.
   std::vector<Scan<Dim>> kept;
-  {
-    const ScanLog<Dim> log = ScanLog<Dim>::open(path);
-    for (const int index : indices)
-      require(index >= 0 && index < log.size(), fmt::format("--remove {}: must be 0 .. {}", index, log.size() - 1), path.string());
-    for (int i = 0; i < log.size(); ++i)
-      if (std::find(indices.begin(), indices.end(), i) == indices.end()) kept.push_back(log.read(i));
-  }
+  for (const int index : indices)
+    require(index >= 0 && index < log.size(), fmt::format("--remove {}: must be 0 .. {}", index, log.size() - 1), path.string());
+  for (int i = 0; i < log.size(); ++i)
+    if (std::find(indices.begin(), indices.end(), i) == indices.end()) kept.push_back(log.read(i));
   const std::filesystem::path backup = path.string() + ".bak";
   std::error_code error;
   std::filesystem::remove(backup, error);
@@ -318,6 +292,8 @@ void remove_scans(const std::filesystem::path& path, std::span<const int> indice
 
 template class ScanLog<2>;
 template class ScanLog<3>;
+template std::uint32_t scan_fingerprint<2>(const Scan<2>&);
+template std::uint32_t scan_fingerprint<3>(const Scan<3>&);
 template std::string scans_as_log<2>(std::span<const Scan<2>>);
 template std::string scans_as_log<3>(std::span<const Scan<3>>);
 template void remove_scans<2>(const std::filesystem::path&, std::span<const int>);

@@ -2,12 +2,14 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "vantage/base/progress.h"
 #include "vantage/scan/scan.h"
+#include "vantage/session/log_file.h"
 
 namespace vantage {
 
@@ -24,19 +26,20 @@ template <int Dim>
   requires SpatialDim<Dim>
 class ScanLog {
  public:
-  /// A new log; throws io if the file exists or cannot be made.
+  /// A new log, on the disk; throws io if one that has begun is there, or another process writes it, or it cannot be made.
   [[nodiscard]] static ScanLog create(const std::filesystem::path& path);
-  /// Opens and verifies a log to go on with it. A torn last record (the machine stopped while it was written) is cut off, with a warning; damage
-  /// anywhere else throws bad_input naming `FILE:OFFSET`; io when another process writes it.
+  /// Opens and verifies a log to go on with it. A torn last record (the process or the machine stopped while it was written) is cut off, with a
+  /// warning; damage anywhere else throws bad_input naming `FILE:OFFSET`; io when another process writes it. All it holds is on the disk then.
   [[nodiscard]] static ScanLog open(const std::filesystem::path& path, Observer* observer = nullptr);
   /// The same without touching the file; `append` is not allowed.
   [[nodiscard]] static ScanLog open_to_read(const std::filesystem::path& path);
-  ~ScanLog();
-  ScanLog(ScanLog&& other) noexcept;
-  ScanLog& operator=(ScanLog&&) = delete;
 
   [[nodiscard]] int size() const { return static_cast<int>(records_.size()); }
   [[nodiscard]] Scan<Dim> read(int index) const;
+  /// The scan that is the same bit for bit, if there is one.
+  [[nodiscard]] std::optional<int> find(const Scan<Dim>& scan) const;
+  /// Checksum of a scan, whatever its number.
+  [[nodiscard]] std::uint32_t fingerprint(int index) const;
   /// Returns once the scan is on the disk; throws io, and the log is as before.
   void append(const Scan<Dim>& scan);
 
@@ -45,17 +48,23 @@ class ScanLog {
     std::uint64_t offset = 0;  ///< Of the payload.
     std::uint32_t length = 0;
   };
-  ScanLog(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
+  explicit ScanLog(LogFile file) : file_(std::move(file)) {}
   /// Lists the records; returns the offset of a torn one at the end, or the file's size.
   std::uint64_t list_records(std::uint64_t bytes);
   /// Adds the record at the end of those listed; false if it is torn.
   bool list_record(std::uint64_t bytes);
 
-  std::filesystem::path path_;
-  int file_ = -1;
+  LogFile file_;
   std::uint64_t end_ = 0;
   std::vector<Record> records_;
 };
+
+/// As ScanLog::fingerprint.
+template <int Dim>
+[[nodiscard]] std::uint32_t scan_fingerprint(const Scan<Dim>& scan);
+
+/// Whether the file at `path` is what `create` leaves when it is stopped: the header or a part of it.
+[[nodiscard]] bool is_empty_log(const std::filesystem::path& path);
 
 /// Dimension of the log at `path`, from its header. Throws io, or bad_input if it is none.
 [[nodiscard]] int scan_log_dim(const std::filesystem::path& path);

@@ -2,7 +2,9 @@
 #include "vantage/session/scan_log.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -118,6 +120,63 @@ TYPED_TEST(ScanLogs, EveryFlippedBitBeforeTheLastScanIsRefusedWithItsPlace) {
   }
 }
 
+TYPED_TEST(ScanLogs, TheLastScanIsCutOnlyIfItWasNeverWholeOnTheDisk) {
+  constexpr int Dim = TypeParam::value;
+  const std::string whole = read_file(this->three());
+  const std::size_t record = (whole.size() - 16) / 3, last = 16 + 2 * record;
+  const auto path = this->folder_ / "last.log";
+  Random random(3);
+  for (int i = 0; i < 40; ++i) {  // A bit that flipped later.
+    std::string bytes = whole;
+    const std::size_t at = last + 16 + random.below(record - 17);
+    bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
+    write(path, bytes);
+    EXPECT_NE(message_of<Dim>(path).find("the checksum of scan 2 is wrong"), std::string::npos) << at;
+    EXPECT_EQ(read_file(path), bytes);
+  }
+  const std::size_t first = (last + 16 + 511) / 512 * 512;  // A sector that never came to the disk, though later ones did.
+  if (first + 512 <= whole.size()) {
+    std::string bytes = whole;
+    bytes.replace(first, 512, 512, '\0');
+    write(path, bytes);
+    EXPECT_EQ(ScanLog<Dim>::open(path).size(), 2);
+    EXPECT_EQ(std::filesystem::file_size(path), last);
+  }
+}
+
+TYPED_TEST(ScanLogs, ALogThatOnlyBeganIsBegunAgain) {
+  constexpr int Dim = TypeParam::value;
+  const std::string header = read_file(this->three()).substr(0, 16);
+  const auto path = this->folder_ / "begun.log";
+  const std::vector<std::string> begun = {"", header.substr(0, 5), header.substr(0, 13), header, std::string(16, '\0')};
+  for (const std::string& bytes : begun) {
+    write(path, bytes);
+    EXPECT_TRUE(is_empty_log(path));
+    EXPECT_EQ(ScanLog<Dim>::create(path).size(), 0);
+    EXPECT_EQ(read_file(path), header);
+  }
+  const std::vector<std::string> others = {"another", header + "S"};
+  for (const std::string& bytes : others) {
+    write(path, bytes);
+    EXPECT_FALSE(is_empty_log(path));
+    EXPECT_THROW(static_cast<void>(ScanLog<Dim>::create(path)), Error);
+    EXPECT_EQ(read_file(path), bytes);
+  }
+}
+
+TYPED_TEST(ScanLogs, ScansAreKnownAgain) {
+  constexpr int Dim = TypeParam::value;
+  const ScanLog<Dim> log = ScanLog<Dim>::open_to_read(this->three());
+  for (int i = 0; i < 3; ++i) {
+    Scan<Dim> same = this->scan(i);
+    EXPECT_EQ(log.find(same), i);
+    EXPECT_EQ(log.fingerprint(i), scan_fingerprint<Dim>(same));
+    same.origin[0] = std::nextafter(same.origin[0], 0.0);
+    EXPECT_EQ(log.find(same), std::nullopt);
+    EXPECT_NE(log.fingerprint(i), scan_fingerprint<Dim>(same));
+  }
+}
+
 TYPED_TEST(ScanLogs, ReadingTouchesNothing) {
   constexpr int Dim = TypeParam::value;
   const auto path = this->three();
@@ -131,7 +190,11 @@ TYPED_TEST(ScanLogs, OneWriterAtATimeAndNoOverwriting) {
   constexpr int Dim = TypeParam::value;
   const auto path = this->three();
   const ScanLog<Dim> log = ScanLog<Dim>::open(path);
-  EXPECT_NE(message_of<Dim>(path).find("another process"), std::string::npos);
+  const std::string message = message_of<Dim>(path);
+  EXPECT_NE(message.find("another process"), std::string::npos);
+  if (std::filesystem::exists("/proc/locks")) {
+    EXPECT_NE(message.find("(pid " + std::to_string(::getpid()) + ")"), std::string::npos) << message;
+  }
   EXPECT_EQ(ScanLog<Dim>::open_to_read(path).size(), 3);
   EXPECT_THROW(static_cast<void>(ScanLog<Dim>::create(path)), Error);
 }
