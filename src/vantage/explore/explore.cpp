@@ -265,6 +265,12 @@ std::vector<RankedPlace<Dim>> Explorer<Dim>::rank(const RankRequest<Dim>& reques
 
 template <int Dim>
   requires SpatialDim<Dim>
+const Field<Dim, std::uint8_t>& Explorer<Dim>::reachable() const {
+  return impl_->planner->reachable();
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
 BeliefView<Dim> Explorer<Dim>::view() const {
   return impl_->belief.view();
 }

@@ -48,6 +48,8 @@ class Explorer {
 
   /// The best places to scan from next (Planner::rank), after a step.
   [[nodiscard]] std::vector<RankedPlace<Dim>> rank(const RankRequest<Dim>& request) const;
+  /// Nodes of window() where one may stand (1, else 0), after a step.
+  [[nodiscard]] const Field<Dim, std::uint8_t>& reachable() const;
   [[nodiscard]] BeliefView<Dim> view() const;
 
   [[nodiscard]] const Grid<Dim>& window() const;  ///< Over the whole domain.

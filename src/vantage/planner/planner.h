@@ -81,6 +81,9 @@ class Planner {
   /// when what those before it are expected to show counts no more. Places that would show less than stop_volume are left out.
   [[nodiscard]] std::vector<RankedPlace<Dim>> rank(const BeliefView<Dim>& view, const RankRequest<Dim>& request) const;
 
+  /// Where one may stand, as of the last decision (1, else 0).
+  [[nodiscard]] const Field<Dim, std::uint8_t>& reachable() const { return reachable_; }
+
   /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be. Baselines: the ray form.
   [[nodiscard]] std::vector<double> evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const;
 
