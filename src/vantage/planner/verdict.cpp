@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kLattice = 0.002;  // What the place of the lattice may make of a share.
+constexpr double kLattice = 0.005;  // What the place of the lattice may make of a share.
 constexpr double kGlimpses = 4.0;   // Nodes; fewer are chance.
 
 /// What hangs together and is unseen.
@@ -23,6 +23,8 @@ struct Part {
   double open = 0.0;             // What its faces are expected to open [m^Dim].
   double rim = 0.0;              // A layer of cells behind its faces [m^Dim].
   double stuck = 0.0;            // Straight behind the faces in the open that stay although someone looked [m^Dim].
+  double beyond = 0.0;           // The same of those seen through something narrow [m^Dim].
+  int through = 0;               // Faces beside what was seen through something narrow.
   double glimpsed = 0.0;         // Nodes a ray went by.
   std::size_t viewer = kNoNode;  // Sees a part of it that may open.
   bool has_face = false, reachable = false, doubtful = false, squeezed = false;
@@ -119,9 +121,16 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
     const bool stubborn = looked_for && std::binary_search(options.last_look->stubborn.begin(), options.last_look->stubborn.end(), face.unseen);
     // Off the walls and deep, beside what was seen through something narrow: nobody can tell how far it goes on.
     const bool through = looked_for && air[face.seen] == 0 && face.known_distance >= 0.75 * h && depth_behind(view, face, 2.0 * h) >= 2.0 * h;
-    part.doubtful = part.doubtful || viewable || through;
-    if (stubborn) (through ? part.open : part.stuck) += behind;
+    part.doubtful = part.doubtful || viewable;
+    part.through += through ? 1 : 0;
+    if (stubborn) (through ? part.beyond : part.stuck) += behind;
     if (viewable) part.open += behind * face.probability;
+  }
+  const auto window = static_cast<int>(cell_measure<Dim>(3.0, Dim - 1));  // Faces of a window three cells wide; fewer are chance.
+  for (Part<Dim>& part : parts) {
+    const bool wide = part.through >= window;
+    part.doubtful = part.doubtful || wide;
+    (wide ? part.open : part.stuck) += part.beyond;
   }
   for (const LastLook* look : {options.last_look, options.squeezed}) {
     if (look == nullptr || !look->asked) continue;
@@ -147,7 +156,7 @@ Share share_of(const Part<Dim>& part, double h) {
   Share share;
   share.least = 0.25 * std::min(all, part.glimpsed * cell);  // A ray through a cell does not show all of it.
   share.most = part.doubtful || part.squeezed || entered ? all : std::min(all, part.rim + 2.0 * part.stuck);
-  share.expected = std::min(all, part.open + 0.25 * part.stuck);
+  share.expected = std::min(all, part.open + 0.1 * part.stuck);
   // Light gets in where no opening is known: as much as not may be seen that way.
   if (entered) share.expected = std::max(share.expected, std::min(0.5 * (share.least + share.most), 4.0 * part.glimpsed * cell));
   // A passage the lattice is too coarse for leads to where nobody has looked.
