@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// fuzz_seeds FOLDER: writes FOLDER/ENDING/NAME for every sample scan.
+// fuzz_seeds FOLDER: writes FOLDER/ENDING/NAME for every sample scan and scene.
 #include <fmt/format.h>
 
 #include <exception>
 
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/sample_scans.h"
+#include "vantage/io/sample_scenes.h"
 
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   try {
-    for (const auto& [name, bytes] : vantage::samples::all()) {
+    auto files = vantage::samples::all();
+    for (const auto& scene : vantage::samples::scenes()) files.push_back(scene);
+    for (const auto& [name, bytes] : files) {
       const std::filesystem::path folder = std::filesystem::path(arguments[1]) / name.substr(name.rfind('.') + 1);
       std::filesystem::create_directories(folder);
       vantage::write_file(folder / name, bytes);
