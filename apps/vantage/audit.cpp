@@ -119,7 +119,8 @@ void print(const Flags& flags, const Json& json, const std::string& text) {
 }
 
 int score_run_folder(const Flags& flags) {
-  require(flags.sets.empty() && flags.voxel.empty() && flags.step.empty() && flags.ground.empty(), "--set, --voxel, --step-deg, --ground: a run folder keeps its options");
+  require(flags.sets.empty() && flags.voxel.empty() && flags.step.empty() && flags.ground.empty(),
+          "--set, --voxel, --step-deg, --ground: a run folder keeps its options");
   const AuditPlan plan = plan_of(flags, true);
   AuditProgress progress(flags.quiet);
   const Json score = audit_run(flags.places.front(), flags.truth, plan, progress);

@@ -140,7 +140,8 @@ TEST(CityGml, ErrorsNameThePlace) {
   EXPECT_THAT(error_of(odd, "a.gml"), HasSubstr("11 numbers: positions have 3 each"));
   EXPECT_THAT(error_of(changed(good, "1002 2000 2 ", "1002 two 2 "), "a.gml"), HasSubstr("'two': must be a finite number"));
   EXPECT_THAT(error_of(changed(good, "1002 2000 2 ", "1e999 2000 2 "), "a.gml"), HasSubstr("'1e999': must be a finite number"));
-  EXPECT_THAT(error_of(changed(good, "<g:posList srsDimension=\"3\">", "<g:posList srsDimension=\"2\">"), "a.gml"), HasSubstr("positions of 2 numbers"));
+  EXPECT_THAT(error_of(changed(good, "<g:posList srsDimension=\"3\">", "<g:posList srsDimension=\"2\">"), "a.gml"),
+              HasSubstr("positions of 2 numbers"));
   EXPECT_THAT(error_of(changed(good, "2 0 0 0 0 2", "2 0 0 0 2"), "a.gml"), HasSubstr("15 numbers: a matrix has 16"));
   EXPECT_THAT(error_of(changed(good, "1005 1995 0", "1005 1995"), "a.gml"), HasSubstr("2 numbers: a position has 3"));
   EXPECT_THAT(error_of(good.substr(0, 2000), "a.gml"), HasSubstr("not well-formed XML"));

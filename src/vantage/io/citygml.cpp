@@ -245,7 +245,7 @@ class CityGml {
   double detail_;
   std::unordered_map<std::string_view, Node> by_id_;
   std::vector<Property> properties_;
-  std::vector<Node> free_;  ///< Polygons of no level: relief.
+  std::vector<Node> free_;       ///< Polygons of no level: relief.
   std::map<Key, double> level_;  ///< Of each object that is shown.
   Placing as_it_is_;
   Polygons out_;

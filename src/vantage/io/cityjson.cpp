@@ -229,7 +229,7 @@ class CityJson {
   const std::string& name_;
   double detail_;
   std::array<double, 3> scale_{1.0, 1.0, 1.0}, shift_{0.0, 0.0, 0.0};
-  Vertices shared_;  ///< Of all objects.
+  Vertices shared_;                      ///< Of all objects.
   std::map<std::string, double> level_;  ///< Of each object that is shown.
   Polygons out_;
 };

@@ -132,11 +132,11 @@ TEST(CutPolygon, WhatIsNoPolygonGivesNothing) {
   };
   EXPECT_EQ(cut({}, {}), 0U);
   EXPECT_EQ(cut({0, 1}, {}), 0U);
-  EXPECT_EQ(cut({0, 1, 2}, {}), 0U);           // On a line.
-  EXPECT_EQ(cut({0, 0, 1, 1, 3, 3}, {}), 1U);  // Corners given twice.
+  EXPECT_EQ(cut({0, 1, 2}, {}), 0U);            // On a line.
+  EXPECT_EQ(cut({0, 0, 1, 1, 3, 3}, {}), 1U);   // Corners given twice.
   EXPECT_EQ(cut({0, 2, 3, 4, 5, 6}, {3}), 1U);  // A hole outside.
-  EXPECT_EQ(cut({0, 2, 3, 1}, {3}), 1U);       // A hole of one corner.
-  EXPECT_EQ(cut({0, 1, 2, 3}, {}), 2U);        // A corner on a side.
+  EXPECT_EQ(cut({0, 2, 3, 1}, {3}), 1U);        // A hole of one corner.
+  EXPECT_EQ(cut({0, 1, 2, 3}, {}), 2U);         // A corner on a side.
 }
 
 }  // namespace

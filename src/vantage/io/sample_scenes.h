@@ -80,7 +80,8 @@ inline std::string dae() {
 
 /// Name (whose ending tells the format) and bytes of each.
 inline std::vector<std::pair<std::string, std::string>> scenes() {
-  return {{"court.json", cityjson()}, {"wall.gml", citygml()}, {"roof.obj", obj()}, {"square.off", off()}, {"corner.stl", stl()}, {"square.dae", dae()}};
+  return {{"court.json", cityjson()}, {"wall.gml", citygml()}, {"roof.obj", obj()},
+          {"square.off", off()},      {"corner.stl", stl()},   {"square.dae", dae()}};
 }
 
 }  // namespace vantage::samples

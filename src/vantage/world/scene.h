@@ -53,8 +53,8 @@ struct SceneFileOptions {
   double ground = -kInfinity;                  ///< Height of level ground under the mesh files that is added to them [m]; -infinity: none.
 };
 
-/// A built-in scene `NAME[:key=value,...]`, a mesh file (OBJ, PLY, STL, DAE, glTF, GLB, CityJSON, CityGML), or a 2D occupancy map (`.yaml` of ROS, or the image).
-/// Throws bad_input with what is allowed; io when the file cannot be read.
+/// A built-in scene `NAME[:key=value,...]`, a mesh file (OBJ, PLY, STL, DAE, glTF, GLB, CityJSON, CityGML), or a 2D occupancy map (`.yaml` of ROS, or
+/// the image). Throws bad_input with what is allowed; io when the file cannot be read.
 [[nodiscard]] AnyScene make_scene(std::string_view spec, const SceneFileOptions& options = {});
 
 }  // namespace vantage

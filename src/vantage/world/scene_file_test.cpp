@@ -198,6 +198,17 @@ TEST(SceneFile, TownStartsOutdoors) {
   EXPECT_LT((scene.start - scene.domain.center()).head<2>().norm(), 60.0);
 }
 
+TEST(SceneFile, DelftStartsInAStreet) {
+  VANTAGE_NEEDS_DATA("delft_cityjson");
+  const auto scene = std::get<Scene<3>>(load_scene_file(data_set("delft_cityjson") / "delft.json"));
+  expect_good_start(scene);  // Clear of the ground, too, though the cells are larger than a man.
+  const RayCaster<3> world(scene.mesh);
+  EXPECT_EQ(world.cast(scene.start, Vec<3>::UnitZ()).range, kInfinity);
+  EXPECT_NEAR(world.cast(scene.start, -Vec<3>::UnitZ()).range, 1.1 * scene.clearance, 0.3);
+  const auto ranges = SimulatedLidar<3>(scene.mesh, {}).scan(scene.start, 0).ranges;
+  EXPECT_GT(std::count_if(ranges.begin(), ranges.end(), [](float r) { return std::isfinite(r); }), static_cast<std::ptrdiff_t>(ranges.size() / 2));
+}
+
 TEST(SceneFile, GroundIsAddedWhereAskedFor) {
   const ScratchFolder folder;
   const std::filesystem::path path = folder / "two.city.json";
