@@ -226,8 +226,9 @@ std::string filter_note(std::span<const MeasuredInput> inputs, const FilterOptio
   using What = FilterOptions::What;
   std::string out = fmt::format("Of {} points the filter left out", sum.points);
   if (options.what != What::isolated)
-    out += fmt::format(" {} mixed pixels ({:.2f} %: between a nearer and a farther neighbour, both at least {:g} m off and within {:g} degrees of the ray)",
-                       sum.mixed, share(sum.mixed), options.jump, degrees(options.angle));
+    out += fmt::format(
+        " {} mixed pixels ({:.2f} %: between a nearer and a farther neighbour, both at least {:g} m off and within {:g} degrees of the ray)",
+        sum.mixed, share(sum.mixed), options.jump, degrees(options.angle));
   if (options.what != What::mixed)
     out += fmt::format("{} {} isolated points ({:.2f} %: fewer than {} others within {:g} distances between rays)",
                        options.what == What::both ? " and" : "", sum.isolated, share(sum.isolated), options.neighbours, options.radius);
@@ -298,8 +299,8 @@ class MeasuredRun {
         if (shared.share < kRepeated) continue;
         const std::string other = before < kept_.size() ? fmt::format("scan {}", kept_[before]) : added_[before - kept_.size()].name;
         throw Error(ErrorCode::bad_input,
-                    fmt::format("{:.0f} % of its points are those of {}{}: a scan counts once (--force adds it all the same)", 100.0 * shared.share, other,
-                                shared.elsewhere ? ", taken at another place" : ""),
+                    fmt::format("{:.0f} % of its points are those of {}{}: a scan counts once (--force adds it all the same)", 100.0 * shared.share,
+                                other, shared.elsewhere ? ", taken at another place" : ""),
                     added_[k - kept_.size()].name);
       }
   }
@@ -432,8 +433,12 @@ class MeasuredRun {
                         {"points", input.report.points},
                         {"pose", input.pose},
                         {"step_deg", degrees(input.report.step)},
-                        {"left_out", {{"near", input.report.near}, {"far", input.report.far}, {"not_finite", input.not_finite},
-                                       {"mixed", input.filtered.mixed}, {"isolated", input.filtered.isolated}}}});
+                        {"left_out",
+                         {{"near", input.report.near},
+                          {"far", input.report.far},
+                          {"not_finite", input.not_finite},
+                          {"mixed", input.filtered.mixed},
+                          {"isolated", input.filtered.isolated}}}});
     return inputs;
   }
 
@@ -456,6 +461,8 @@ NextOutcome find_next(const NextRequest& given, Observer* observer) {
   require(!request.inputs.empty(), "no scans are named: point clouds, or a run folder");
   const ThreadLimit limit(request.threads);
   std::span<const fs::path> files(request.inputs);
+  if (fs::path& first = request.inputs.front(); first.filename() == run_file::kScanLog && is_run_folder(fs::absolute(first).parent_path()))
+    first = fs::absolute(first).parent_path();  // The log of a run stands for its folder.
   const bool exists = is_run_folder(request.inputs.front());
   if (exists) {
     require(request.folder.empty() || fs::weakly_canonical(request.folder) == fs::weakly_canonical(request.inputs.front()),

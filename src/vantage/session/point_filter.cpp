@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr int kLongestVeil = 3;   // Mixed pixels in a row.
+constexpr int kLongestVeil = 3;    // Mixed pixels in a row.
 constexpr int kNextNeighbour = 2;  // A neighbour is at most so many rays away.
 constexpr std::size_t kChunk = 256;
 
@@ -60,7 +60,8 @@ class DirectionImage {
     std::int64_t found = 0;
     for (int r = -high; r <= high && found < enough; ++r)
       for (int c = -wide; c <= std::min(wide, columns_ - 1 - wide) && found < enough; ++c)
-        visit(column + c, row + r, [&](std::size_t j) { found += j != i && out[j] == 0 && (local_[j] - p).squaredNorm() <= radius * radius ? 1 : 0; });
+        visit(column + c, row + r,
+              [&](std::size_t j) { found += j != i && out[j] == 0 && (local_[j] - p).squaredNorm() <= radius * radius ? 1 : 0; });
     return found;
   }
 
@@ -75,8 +76,8 @@ class DirectionImage {
   template <class Visit>
   void visit(int column, int row, Visit&& each) const {
     if (row < 0 || row >= rows_) return;
-    const std::size_t cell = static_cast<std::size_t>((column % columns_ + columns_) % columns_) * static_cast<std::size_t>(rows_) +
-                             static_cast<std::size_t>(row);
+    const std::size_t cell =
+        static_cast<std::size_t>((column % columns_ + columns_) % columns_) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row);
     for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) each(members_[k]);
   }
 
@@ -89,9 +90,7 @@ class DirectionImage {
 
 class MixedPixels {
  public:
-  MixedPixels(const DirectionImage& image, const FilterOptions& options) : image_(image), jump_(options.jump) {
-    cosine_ = sin_cos(options.angle)[1];
-  }
+  MixedPixels(const DirectionImage& image, const FilterOptions& options) : image_(image), jump_(options.jump) { cosine_ = sin_cos(options.angle)[1]; }
 
   [[nodiscard]] bool operator()(std::size_t i) const { return (in_veil(i, 0) && !goes_on(i, 1)) || (in_veil(i, 1) && !goes_on(i, 0)); }
 

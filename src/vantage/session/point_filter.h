@@ -25,10 +25,10 @@ struct FilterReport {
   std::int64_t mixed = 0, isolated = 0;
 };
 
-/// Takes out of `points` (world frame) what the options say; `pose` and `step` [rad] are those of the scan's image. A mixed pixel lies, along a row or a
-/// column, between a nearer and a farther neighbour, both joined to it by lines steeper than `angle` and at least `jump` longer or shorter; at most
-/// three such in a row, for a longer row is a surface seen at a grazing angle; and it does not go on to both sides across, as a pole before a wall
-/// does. Isolated points are looked for among those that are left. The order of the rest stays.
+/// Takes out of `points` (world frame) what the options say; `pose` and `step` [rad] are those of the scan's image. A mixed pixel lies, along a row
+/// or a column, between a nearer and a farther neighbour, both joined to it by lines steeper than `angle` and at least `jump` longer or shorter; at
+/// most three such in a row, for a longer row is a surface seen at a grazing angle; and it does not go on to both sides across, as a pole before a
+/// wall does. Isolated points are looked for among those that are left. The order of the rest stays.
 [[nodiscard]] FilterReport filter_points(std::vector<Vec<3>>& points, const Pose<3>& pose, double step, const FilterOptions& options);
 
 }  // namespace vantage

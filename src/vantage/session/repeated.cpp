@@ -11,7 +11,9 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kSample = 2000;
-constexpr double kSame = 0.001;  // [m]
+constexpr double kCell = 0.001;   // [m]
+constexpr double kSame = 0.0004;  // Less than half a cell, so that the cells of a cube's corners hold all of it [m].
+constexpr double kClearly = 0.05;
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -28,7 +30,7 @@ struct CellHash {
 
 Cell cell_of(const Vec<3>& p) {
   Cell cell;
-  for (int a = 0; a < 3; ++a) cell[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(std::floor(p[a] / kSame));
+  for (int a = 0; a < 3; ++a) cell[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(std::floor(p[a] / kCell));
   return cell;
 }
 
@@ -46,7 +48,7 @@ double share(const std::vector<Vec<3>>& points, const std::vector<Vec<3>>& other
   std::vector<Vec<3>> sample;
   for (std::size_t i = 0; i < points.size(); i += points.size() / kSample + 1) {
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec<3> offset(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
+      const Vec<3> offset(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
       around.emplace(cell_of(points[i] + kSame * offset), sample.size());
     }
     sample.push_back(points[i]);
@@ -54,7 +56,7 @@ double share(const std::vector<Vec<3>>& points, const std::vector<Vec<3>>& other
   std::vector<std::uint8_t> found(sample.size(), 0);
   for (const Vec<3>& p : others)
     for (auto [at, end] = around.equal_range(cell_of(p)); at != end; ++at)
-      if ((sample[at->second] - p).norm() <= 0.5 * kSame) found[at->second] = 1;
+      if ((sample[at->second] - p).norm() <= kSame) found[at->second] = 1;
   return static_cast<double>(std::count(found.begin(), found.end(), 1)) / static_cast<double>(sample.size());
 }
 
@@ -62,7 +64,7 @@ double share(const std::vector<Vec<3>>& points, const std::vector<Vec<3>>& other
 
 SharedPoints shared_points(const Scan<3>& scan, const Scan<3>& other) {
   const double world = share(points_in(scan, false), points_in(other, false)), own = share(points_in(scan, true), points_in(other, true));
-  return {std::max(world, own), own > world};
+  return {std::max(world, own), own > world + kClearly};
 }
 
 }  // namespace vantage

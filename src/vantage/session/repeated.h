@@ -6,7 +6,7 @@ namespace vantage {
 
 /// How much of a scan another one holds.
 struct SharedPoints {
-  double share = 0.0;      ///< Of up to 2,000 of its points, those that the other has, too, to half a millimetre.
+  double share = 0.0;      ///< Of up to 2,000 of its points, those that the other has, too, to within 0.4 mm.
   bool elsewhere = false;  ///< They are equal seen from the scanners, not in the world: one scan with two poses.
 };
 
