@@ -32,7 +32,7 @@ constexpr const char* kExamples =
 
 struct Flags {
   std::vector<std::string> places, sets, own;
-  std::string truth, folder, variants, layouts, starts, seed, voxel, step, cap, targets, candidates, walls, threads, generated, kinds;
+  std::string truth, folder, variants, layouts, starts, seed, voxel, step, cap, targets, candidates, walls, threads, generated, kinds, ground;
   bool scene_start = false, to_the_end = false, curves = false, json = false, quiet = false, verbose = false;
 };
 
@@ -53,6 +53,7 @@ void add_flags(CommandParser& parser, Flags& flags) {
   several("--set", flags.sets, "STAGE.OPTION=VALUE", "an option of every run; vantage config dump lists them");
   parser.option("--voxel", flags.voxel, "METRES", "lattice spacing of every run (default: the scene's)", what);
   parser.option("--step-deg", flags.step, "DEGREES", "between the sensor's rays", what);
+  parser.option("--ground", flags.ground, "Z", "height of level ground that is added to mesh files which have none [m]", what);
   parser.option("--generated", flags.generated, "N",
                 "instead of scenes: N small random ones, each to its end: does it end, is the verdict right, is the way free? --seed: of the first",
                 what);
@@ -85,6 +86,7 @@ std::vector<Setting> settings_of(const Flags& flags) {
   }
   if (!flags.voxel.empty()) settings.push_back({"explore.voxel", flags.voxel, "--voxel"});
   if (!flags.step.empty()) settings.push_back({"sensor.step_deg", flags.step, "--step-deg"});
+  if (!flags.ground.empty()) settings.push_back({"scene.ground", flags.ground, "--ground"});
   return settings;
 }
 
@@ -123,7 +125,8 @@ void print(const Flags& flags, const Json& json, const std::string& text) {
 }
 
 int score_run_folder(const Flags& flags) {
-  require(flags.sets.empty() && flags.voxel.empty() && flags.step.empty(), "--set, --voxel, --step-deg: a run folder keeps its options");
+  require(flags.sets.empty() && flags.voxel.empty() && flags.step.empty() && flags.ground.empty(),
+          "--set, --voxel, --step-deg, --ground: a run folder keeps its options");
   const AuditPlan plan = plan_of(flags, true);
   AuditProgress progress(flags.quiet);
   const Json score = audit_run(flags.places.front(), flags.truth, plan, progress);

@@ -39,25 +39,16 @@ struct Flag {
   const char *name, *type, *option, *group;
 };
 constexpr Flag kFlags[] = {
-    {"--count", "N", "next.count", "Next station"},
-    {"--height", "METRES", "next.height", "Next station"},
-    {"--stand", "WHERE", "next.stand", "Next station"},
-    {"--slope-deg", "DEGREES", "next.slope_deg", "Next station"},
-    {"--step", "METRES", "next.step", "Next station"},
-    {"--clearance", "METRES", "planner.clearance", "Next station"},
-    {"--overlap", "SHARE", "next.overlap", "Next station"},
-    {"--apart", "METRES", "next.apart", "Next station"},
-    {"--frame", "FRAME", "measured.frame", "Scans"},
-    {"--up", "AXIS", "measured.up", "Scans"},
-    {"--no-return", "WHAT", "measured.no_return", "Scans"},
-    {"--range", "METRES", "measured.range", "Scans"},
-    {"--min-range", "METRES", "measured.min_range", "Scans"},
-    {"--step-deg", "DEGREES", "measured.step_deg", "Scans"},
-    {"--eta", "METRES", "surface.eta", "Method"},
-    {"--voxel", "METRES", "explore.voxel", "Method"},
-    {"--grid", "CELLS", "explore.grid", "Method"},
-    {"--margin", "METRES", "next.margin", "Method"},
-    {"--seed", "N", "explore.seed", "Method"},
+    {"--count", "N", "next.count", "Next station"},           {"--height", "METRES", "next.height", "Next station"},
+    {"--stand", "WHERE", "next.stand", "Next station"},       {"--slope-deg", "DEGREES", "next.slope_deg", "Next station"},
+    {"--step", "METRES", "next.step", "Next station"},        {"--clearance", "METRES", "planner.clearance", "Next station"},
+    {"--overlap", "SHARE", "next.overlap", "Next station"},   {"--apart", "METRES", "next.apart", "Next station"},
+    {"--frame", "FRAME", "measured.frame", "Scans"},          {"--up", "AXIS", "measured.up", "Scans"},
+    {"--no-return", "WHAT", "measured.no_return", "Scans"},   {"--range", "METRES", "measured.range", "Scans"},
+    {"--min-range", "METRES", "measured.min_range", "Scans"}, {"--step-deg", "DEGREES", "measured.step_deg", "Scans"},
+    {"--filter", "WHAT", "measured.filter", "Scans"},         {"--eta", "METRES", "surface.eta", "Method"},
+    {"--voxel", "METRES", "explore.voxel", "Method"},         {"--grid", "CELLS", "explore.grid", "Method"},
+    {"--margin", "METRES", "next.margin", "Method"},          {"--seed", "N", "explore.seed", "Method"},
 };
 
 /// Lists of numbers, given once or several times.
@@ -114,6 +105,7 @@ class NextFlags {
                     "take scan K out of the run first (several: --remove 3 --remove 7); the log as it was stays in scans.log.bak")
         ->type_name("K")
         ->group("Run");
+    parser.flag("--force", force_, "add a scan even if its points are those of another one", "Run");
     parser.option("--threads", threads_, "N", "at most so many threads (default: all cores); the results do not depend on it", "Run");
   }
 
@@ -126,6 +118,7 @@ class NextFlags {
     for (const std::string& text : at_) request.poses.at.push_back(place(text));
     request.settings = settings();
     for (const std::string& index : remove_) request.remove.push_back(static_cast<int>(whole_number("--remove", index, 0, 1'000'000)));
+    request.force = force_;
     if (!threads_.empty()) request.threads = static_cast<int>(whole_number("--threads", threads_, 1, 1024));
     return request;
   }
@@ -166,6 +159,7 @@ class NextFlags {
 
   std::vector<std::string> inputs_, at_, sets_, remove_;
   std::string poses_, unit_, folder_, threads_;
+  bool force_ = false;
   std::list<std::string> texts_;  // The parser points into them.
   std::list<std::vector<std::string>> lists_;
   std::vector<CLI::Option*> options_;

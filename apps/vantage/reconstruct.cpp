@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "arguments.h"
@@ -35,7 +36,7 @@ constexpr const char* kExamples =
     "Exit: 0 done, 1 the certificate is wrong (--verify), 2 bad input, 3 files, 4 memory, 130 stopped.";
 
 struct Flags {
-  std::string path, eta, threads;
+  std::string path, eta, threads, filter;
   bool json = false, quiet = false, paper = false, verify = false;
 };
 
@@ -90,6 +91,9 @@ int print_outcome(const Outcome& outcome, const Flags& flags) {
   else if (!flags.quiet)
     fmt::print("{}{}\n{}", flags.path.empty() ? "" : flags.path + ": ", surface_sentence(surface, surface["dim"].get<int>()),
                outcome.report ? verify_text(*outcome.report) : "");
+  if (!flags.json && !flags.quiet && surface.contains("filter"))
+    fmt::print("  filter    {} mixed pixels and {} isolated points of {} left out\n", surface["filter"]["mixed"].get<std::int64_t>(),
+               surface["filter"]["isolated"].get<std::int64_t>(), surface["filter"]["points"].get<std::int64_t>());
   if (!outcome.report || outcome.report->holds()) return 0;
   std::fflush(stdout);
   fmt::print(stderr, "vantage: the certificate is wrong: {}\n", outcome.report->faults.front());
@@ -110,11 +114,13 @@ int reconstruct_command(const Arguments& arguments) {
   for (const vantage::Option& option : list_options(options))
     if (option.name == "eta")
       parser.option("--eta", flags.eta, "METRES", fmt::format("{} ({}; default {})", option.doc, option.allowed(), option.text()), "Method");
+  parser.option("--filter", flags.filter, "WHAT",
+                "points left out (none | mixed | isolated | both); needs to know where each scan was taken: E57, PTX, PCD, logs", "Method");
   parser.flag("--paper", flags.paper, "the paper's own behaviour: small cells dropped, best fit kept at the depth limit (surface.paper)", "Method");
   parser.flag("--verify", flags.verify, "check the certificate: every point against all patches, every patch against all points", "Method");
   parser.app()
-      .add_option("--set", sets, "any option of the stage surface; vantage config dump lists them")
-      ->type_name("surface.OPTION=VALUE")
+      .add_option("--set", sets, "any option of the stage surface (vantage config dump lists them), and measured.filter_*")
+      ->type_name("STAGE.OPTION=VALUE")
       ->group("Method");
   parser.option("--threads", flags.threads, "N", "at most so many threads (default: all cores)", "Method");
   if (!parser.parse(arguments)) return 0;
@@ -123,9 +129,19 @@ int reconstruct_command(const Arguments& arguments) {
   vantage::require(flags.path.empty() || known, fmt::format("{}: must end in .ply, .glb or .obj", flags.path), "-o");
   if (!flags.eta.empty()) sets.push_back("surface.eta=" + flags.eta);
   if (flags.paper) sets.emplace_back("surface.paper=true");
+  vantage::FilterOptions filter;
+  const auto of_filter = std::stable_partition(sets.begin(), sets.end(), [](const std::string& set) { return !set.starts_with("measured."); });
+  set_options(list_options(filter), "measured", {of_filter, sets.end()});
+  if (!flags.filter.empty()) set_options(list_options(filter), "measured", {"measured.filter=" + flags.filter});
+  check_options(filter, "measured");
+  sets.erase(of_filter, sets.end());
   set_options(list_options(options), "surface", sets);
   const vantage::ThreadLimit limit(flags.threads.empty() ? 0 : static_cast<int>(whole_number("--threads", flags.threads, 1, 1024)));
   const std::vector<std::filesystem::path> paths(clouds.begin(), clouds.end());
-  const vantage::AnyScans scans = vantage::read_scans(paths);
-  return print_outcome(std::visit([&](const auto& s) { return reconstruct(s, options, flags); }, scans), flags);
+  vantage::FilterReport filtered;
+  const vantage::AnyScans scans = vantage::read_scans(paths, filter, &filtered);
+  Outcome outcome = std::visit([&](const auto& s) { return reconstruct(s, options, flags); }, scans);
+  if (filter.what != vantage::FilterOptions::What::none)
+    outcome.surface["filter"] = {{"points", filtered.points}, {"mixed", filtered.mixed}, {"isolated", filtered.isolated}};
+  return print_outcome(outcome, flags);
 }

@@ -36,6 +36,8 @@ ScenarioArguments::ScenarioArguments(CommandParser& parser) {
   add(parser, "--start", "x,y,z", {"scene.start"}, scene);
   add(parser, "--up", "AXIS", {"scene.up"}, scene);
   add(parser, "--unit", "METRES", {"scene.unit"}, scene);
+  add(parser, "--ground", "Z", {"scene.ground"}, scene);
+  add(parser, "--detail", "LEVEL", {"scene.detail"}, scene);
   add(parser, "--range", "METRES", {"sensor.range"}, sensor);
   add(parser, "--step-deg", "DEGREES", {"sensor.step_deg"}, sensor);
   add(parser, "--noise", "METRES", {"sensor.range_noise"}, sensor);

@@ -35,4 +35,4 @@ class ScenarioArguments {
 /// What SCENE may be, for the help of each command.
 inline constexpr const char* kSceneHelp =
     "built-in scene (vantage scene --list), with parameters as pipes:cylinders=12; a scenario .toml; mesh files joined by + "
-    "(OBJ, PLY, STL, DAE, glTF, GLB); or a 2D map (.yaml of ROS)";
+    "(OBJ, PLY, STL, DAE, glTF, GLB, CityJSON, CityGML); or a 2D map (.yaml of ROS)";

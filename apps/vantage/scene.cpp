@@ -68,10 +68,12 @@ int scene_command(const Arguments& arguments) {
   parser.option("-o,--output", path, "FILE", ".ply, .obj or .stl", "Output");
   parser.flag("--json", json, "the same as JSON", "Output");
   parser.flag("-q,--quiet", quiet, "print nothing", "Output");
-  std::string name, up, unit;
+  std::string name, up, unit, ground, detail;
   parser.app().add_option("NAME", name, kSceneHelp);
   parser.option("--up", up, "AXIS", "up axis of a mesh file (file | y | z)", "Scene");
   parser.option("--unit", unit, "METRES", "metres per unit of a mesh file", "Scene");
+  parser.option("--ground", ground, "Z", "height of level ground that is added to mesh files which have none [m]", "Scene");
+  parser.option("--detail", detail, "LEVEL", "highest level of detail of a city model (default: the highest of each object)", "Scene");
   if (!parser.parse(arguments)) return 0;
   if (list) {
     fmt::print("{}", json ? vantage::as_text(list_json()) : list_text());
@@ -82,6 +84,8 @@ int scene_command(const Arguments& arguments) {
   std::vector<vantage::Setting> settings;
   if (!up.empty()) settings.push_back({"scene.up", up, "--up"});
   if (!unit.empty()) settings.push_back({"scene.unit", unit, "--unit"});
+  if (!ground.empty()) settings.push_back({"scene.ground", ground, "--ground"});
+  if (!detail.empty()) settings.push_back({"scene.detail", detail, "--detail"});
   const Json result = write_scene(vantage::make_world(name, settings).scene, path);
   if (json)
     fmt::print("{}", vantage::as_text(result));

@@ -172,8 +172,44 @@ def test_a_scan_of_another_place_is_reported(vantage, scan, tmp_path):
     assert result.returncode in (0, 6) and "another place" in result.stderr
 
 
+def test_a_scan_given_twice_is_refused(vantage, scan, tmp_path):
+    run, file = tmp_path / "run", scan(2, 2, 1.5)
+    common = ("--domain", DOMAIN, *COARSE)
+    alone = ask(vantage, file, "--at", "2,2,1.5", *common, "-o", run)
+    before = {p.name: p.read_bytes() for p in run.iterdir() if p.is_file()}
+    for arguments, says in (((run, file, "--at", "3,2,1.5"), "are those of scan 0"), ((file, file, "--at", "2,2,1.5", "--at", "2,2,1.5"), "a scan counts once")):
+        result = vantage("next", *arguments)
+        assert result.returncode == 2 and result.stdout == "" and says in result.stderr and len(result.stderr.splitlines()) == 1
+    assert {p.name: p.read_bytes() for p in run.iterdir() if p.is_file()} == before
+    result = vantage("next", run, file, "--at", "2,2,1.5")  # As after a command that was stopped.
+    assert result.returncode == 0 and "not added again" in result.stderr
+    assert (run / "scans.log").read_bytes() == before["scans.log"]
+    both = ask(vantage, run, file, "--at", "2,2,1.5", "--force")
+    assert both["scans"] == 2 and both["seen_m3"] == pytest.approx(alone["seen_m3"], rel=0.01)
+    assert ask(vantage, run / "scans.log")["ranked"] == ask(vantage, run)["ranked"]  # The log stands for its folder.
+
+
+def test_the_filter_is_reported(vantage, scan, tmp_path):
+    rows = scan(2, 2, 1.5).read_bytes()
+    points = list(struct.iter_unpack("<3f", rows[rows.index(b"end_header\n") + 11 :]))
+    dusty = tmp_path / "dusty.xyz"
+    dust = [(2 + 0.7 * math.cos(k), 2 + 0.7 * math.sin(k), 1.2 + 0.06 * k) for k in range(10)]
+    dusty.write_text("".join(f"{x} {y} {z}\n" for x, y, z in points + dust))
+    common = (dusty, "--at", "2,2,1.5", "--domain", DOMAIN, *COARSE)
+    answers = [vantage("next", *common, "--json"), vantage("next", *common, "--filter", "isolated", "--json", "-o", tmp_path / "run")]
+    assert all(answer.returncode in (0, 6) for answer in answers), answers  # The dust may hem the scanner in.
+    plain, filtered = (json.loads(answer.stdout) for answer in answers)
+    assert not any("filter" in note for note in plain["notes"])
+    note = next(note for note in filtered["notes"] if "filter" in note)
+    assert "isolated points" in note and "mixed" not in note
+    left_out = json.loads((tmp_path / "run/manifest.json").read_text())["inputs"][0]["left_out"]
+    assert left_out["isolated"] >= 10 and left_out["mixed"] == 0
+
+
 @pytest.mark.parametrize("arguments, says", [
     ((), "SCANS is missing"),
+    (("SCAN", "--at", "2,2,1.5", "--filter", "veil"), "measured.filter"),
+    (("SCAN", "--at", "2,2,1.5", "--set", "measured.filter_angle_deg=90"), "0.1 .. 45"),
     (("SCAN",), "--at x,y,z"),
     (("SCAN", "--at", "1,2"), "x,y,z"),
     (("SCAN", "--at", "2,2,1.5", "--at", "1,1,1"), "2 places for 1 scans"),
@@ -210,7 +246,7 @@ def test_corridor(vantage, data, tmp_path):
 
 
 def test_a_scan_that_is_there_is_not_added_twice(vantage, scan, tmp_path):
-    """A command that was stopped can be given again; another place or another file is another scan."""
+    """A command that was stopped can be given again; by force, another place makes another scan."""
     a, b = scan(2, 3, 1.5), scan(8, 3, 1.5)
     run = tmp_path / "run"
     assert vantage("next", a, "--at", "2,3,1.5", "--domain", DOMAIN, *COARSE, "-o", run, "-q").returncode == 0
@@ -219,7 +255,7 @@ def test_a_scan_that_is_there_is_not_added_twice(vantage, scan, tmp_path):
     result = vantage("next", run, b, "--at", "8,3,1.5")
     assert result.returncode == 0 and f"{b.name}: is scan 1 of the run already, and not added again" in result.stderr
     assert {path.name: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
-    assert ask(vantage, run, a, "--at", "2,3,1.6")["scans"] == 3
+    assert ask(vantage, run, a, "--at", "2,3,1.6", "--force")["scans"] == 3
     assert ask(vantage, run, b, "--at", "8,3,1.5", "--remove", 1)["scans"] == 3
     names = [entry["name"] for entry in json.loads((run / "manifest.json").read_text())["inputs"]]
     assert names == [a.name, a.name, b.name]

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// fuzz_seeds FOLDER: writes FOLDER/ENDING/NAME for every sample scan, and a field.
+// fuzz_seeds FOLDER: writes FOLDER/ENDING/NAME for every sample scan and scene, and a field.
 #include <fmt/format.h>
 
 #include <exception>
 
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/sample_scans.h"
+#include "vantage/io/sample_scenes.h"
 #include "vantage/io/vti.h"
 
 namespace {
@@ -23,9 +24,10 @@ std::string field() {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   try {
-    auto samples = vantage::samples::all();
-    samples.emplace_back("a.vti", field());
-    for (const auto& [name, bytes] : samples) {
+    auto files = vantage::samples::all();
+    for (const auto& scene : vantage::samples::scenes()) files.push_back(scene);
+    files.emplace_back("a.vti", field());
+    for (const auto& [name, bytes] : files) {
       const std::filesystem::path folder = std::filesystem::path(arguments[1]) / name.substr(name.rfind('.') + 1);
       std::filesystem::create_directories(folder);
       vantage::write_file(folder / name, bytes);

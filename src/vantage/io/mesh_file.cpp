@@ -22,21 +22,28 @@ static_assert(std::endian::native == std::endian::little, "binary files are writ
 
 struct Parser {
   std::string_view extension;
-  SceneGraph (*parse)(std::string_view bytes, const std::string& name);
+  SceneGraph (*parse)(std::string_view bytes, const std::string& name, double detail);
 };
 
 template <Polygons (*parse)(std::string_view, const std::string&)>
-SceneGraph plain(std::string_view bytes, const std::string& name) {
+SceneGraph plain(std::string_view bytes, const std::string& name, double) {
   return {parse(bytes, name), 'z', 1.0};  // These formats state neither.
 }
 
-constexpr std::array<Parser, 7> kParsers{{{".obj", plain<parse_obj>},
+template <SceneGraph (*parse)(std::string_view, const std::string&)>
+SceneGraph nodes(std::string_view bytes, const std::string& name, double) {
+  return parse(bytes, name);
+}
+
+constexpr std::array<Parser, 9> kParsers{{{".obj", plain<parse_obj>},
                                           {".ply", plain<parse_ply>},
                                           {".stl", plain<parse_stl>},
                                           {".off", plain<parse_off>},
-                                          {".dae", parse_collada},
-                                          {".gltf", parse_gltf},
-                                          {".glb", parse_gltf}}};
+                                          {".dae", nodes<parse_collada>},
+                                          {".gltf", nodes<parse_gltf>},
+                                          {".glb", nodes<parse_gltf>},
+                                          {".json", parse_cityjson},
+                                          {".gml", parse_citygml}}};
 
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -116,6 +123,14 @@ std::string stl_bytes(const Mesh<3>& mesh, const std::string&) {
 
 }  // namespace
 
+double chosen_detail(std::span<const double> present, double detail) {
+  const double least = *std::min_element(present.begin(), present.end());
+  double best = least;
+  for (const double level : present)
+    if (detail < 0.0 || level <= detail) best = std::max(best, level);
+  return best;
+}
+
 bool is_mesh_file(const std::filesystem::path& path) { return find_parser(path) != nullptr; }
 
 std::string mesh_extensions() {
@@ -124,13 +139,15 @@ std::string mesh_extensions() {
   return all;
 }
 
-Mesh<3> read_mesh(const std::filesystem::path& path, const MeshFileOptions& options) {
-  const std::string name = path.string(), bytes = read_file(path);
+Mesh<3> read_mesh(const std::filesystem::path& path, const MeshFileOptions& options) { return parse_mesh(read_file(path), path, options); }
+
+Mesh<3> parse_mesh(std::string_view bytes, const std::filesystem::path& path, const MeshFileOptions& options) {
+  const std::string name = path.string();
   const Parser* parser = find_parser(path);
   require(parser, fmt::format("not a mesh file: its name must end in {}", mesh_extensions()), name);
   require(!bytes.empty(), "is empty", name);
   require(options.unit == 0.0 || (options.unit > 0.0 && options.unit < 1e9), fmt::format("unit = {}: must be > 0 [m]", options.unit));
-  SceneGraph graph = parser->parse(bytes, name);
+  SceneGraph graph = parser->parse(bytes, name, options.detail);
   using Up = MeshFileOptions::Up;
   const char up = options.up == Up::y ? 'y' : options.up == Up::z ? 'z' : graph.up;
   const Eigen::Matrix3d placed = upright(up) * (options.unit > 0.0 ? options.unit : graph.unit);

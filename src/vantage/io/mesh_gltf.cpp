@@ -117,6 +117,7 @@ void check_gltf_nodes(const nlohmann::json& json, const std::string& name) {
 
 SceneGraph parse_gltf(std::string_view bytes, const std::string& name) {
   try {
+    require_shallow_json(json_part(bytes, name), name);
     const nlohmann::json json = nlohmann::json::parse(json_part(bytes, name));
     check_gltf(json, bytes.size(), name);
     check_gltf_nodes(json, name);

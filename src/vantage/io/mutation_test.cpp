@@ -7,7 +7,9 @@
 
 #include "vantage/base/error.h"
 #include "vantage/base/random.h"
+#include "vantage/io/mesh_file.h"
 #include "vantage/io/sample_scans.h"
+#include "vantage/io/sample_scenes.h"
 #include "vantage/io/scan_file.h"
 
 namespace vantage {
@@ -91,6 +93,35 @@ TEST(MutatedScans, LoadOrThrowOneLine) {
       if (name.ends_with(".e57") && i % 2 == 0) bad = samples::e57_resealed(bad);
       ASSERT_NO_THROW(loaded += conforms(bad, name)) << name << ", mutation " << i;
     }
+    EXPECT_LT(loaded, count) << name << ": no mutation was noticed";
+  }
+}
+
+/// The same of a scene.
+bool scene_conforms(const std::string& bytes, const std::string& name) {
+  try {
+    const Mesh<3> mesh = parse_mesh(bytes, name);
+    for (const Vec<3>& v : mesh.vertices) EXPECT_TRUE(v.allFinite()) << name;
+    for (const auto& facet : mesh.facets)
+      for (const std::uint32_t v : facet) EXPECT_LT(v, mesh.vertices.size()) << name;
+    EXPECT_LE(mesh.facets.size(), kMostPointsPerByte * bytes.size()) << name;
+    return true;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_input) << name << ": " << error.what();
+    EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << name << ": " << error.what();
+    return false;
+  }
+}
+
+TEST(MutatedScenes, LoadOrThrowOneLine) {
+  const char* asked = std::getenv("VANTAGE_MUTATIONS");
+  const int count = asked ? std::atoi(asked) : 300;
+  int file = 100;
+  for (const auto& [name, bytes] : samples::scenes()) {
+    ASSERT_TRUE(scene_conforms(bytes, name)) << name;
+    Random random(static_cast<std::uint64_t>(++file));
+    int loaded = 0;
+    for (int i = 0; i < count; ++i) ASSERT_NO_THROW(loaded += scene_conforms(mutated(bytes, random), name)) << name << ", mutation " << i;
     EXPECT_LT(loaded, count) << name << ": no mutation was noticed";
   }
 }

@@ -11,12 +11,13 @@
 #include <Eigen/Geometry>
 
 #include "vantage/base/error.h"
+#include "vantage/io/ears.h"
 
 namespace vantage {
 namespace {
 
 using Facet = Mesh<3>::Facet;
-constexpr std::size_t kMostEars = 512;  ///< Larger polygons are cut into a fan: ears cost the square of the corners.
+constexpr std::size_t kMostEars = 512;  ///< Larger polygons go to `cut_polygon`, which is made for them.
 
 void check(const Polygons& p, const std::string& name) {
   for (std::size_t i = 0; i < p.vertices.size(); ++i) require(p.vertices[i].allFinite(), fmt::format("vertex {} is not finite", i), name);
@@ -61,8 +62,9 @@ class Cutter {
  public:
   Cutter(const std::vector<Vec<3>>& places, std::vector<Facet>& out) : places_(places), out_(out) {}
 
-  void cut(std::span<const std::uint32_t> corners) {
-    if (corners.size() > 3 && corners.size() <= kMostEars) return cut_ears(corners);
+  void cut(std::span<const std::uint32_t> corners, std::span<const std::size_t> holes) {
+    if (!holes.empty() || corners.size() > kMostEars) return cut_polygon(places_, corners, holes, out_);
+    if (corners.size() > 3) return cut_ears(corners);
     for (std::size_t i = 2; i < corners.size(); ++i) add(corners[0], corners[i - 1], corners[i]);
   }
 
@@ -110,11 +112,14 @@ Mesh<3> triangles(const Polygons& p, const std::string& name) {
   const std::vector<std::uint32_t> place_of = join_vertices(p, mesh.vertices);
   Cutter cutter(mesh.vertices, mesh.facets);
   std::vector<std::uint32_t> ring;
-  std::size_t begin = 0;
+  std::vector<std::size_t> holes;
+  std::size_t begin = 0, hole = 0;
   for (const std::size_t end : p.ends) {
     ring.clear();
+    holes.clear();
     for (std::size_t i = begin; i < end; ++i) ring.push_back(place_of[static_cast<std::size_t>(p.corners[i])]);
-    cutter.cut(ring);
+    while (hole < p.holes.size() && p.holes[hole] < end) holes.push_back(p.holes[hole++] - begin);
+    cutter.cut(ring, holes);
     begin = end;
   }
   require(!mesh.facets.empty(), fmt::format("holds no triangles ({} vertices, {} faces)", p.vertices.size(), p.ends.size()), name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@ struct Polygons {
   std::vector<Vec<3>> vertices;
   std::vector<std::int64_t> corners;  ///< Of all polygons in turn, indices into `vertices`.
   std::vector<std::size_t> ends;      ///< Where each polygon ends in `corners`.
+  std::vector<std::size_t> holes;     ///< Where inner rings begin in `corners`, ascending: of the polygon they lie in, behind its outline.
 
   void close_polygon() { ends.push_back(corners.size()); }
 };
@@ -36,5 +38,13 @@ struct SceneGraph {
 [[nodiscard]] SceneGraph parse_collada(std::string_view bytes, const std::string& name);
 /// `name` is the path, beside which buffers may lie.
 [[nodiscard]] SceneGraph parse_gltf(std::string_view bytes, const std::string& name);
+/// CityJSON 1.0, 1.1, 2.0 and CityGML 1.0 .. 3.0: of each object the surfaces of its highest level of detail not above `detail`, or of its lowest;
+/// < 0: of its highest. A building whose parts are shown in more detail is left to them.
+[[nodiscard]] SceneGraph parse_cityjson(std::string_view bytes, const std::string& name, double detail);
+[[nodiscard]] SceneGraph parse_citygml(std::string_view bytes, const std::string& name, double detail);
+/// Throws bad_input for JSON that nests deeper than 100: parsers of it call themselves.
+void require_shallow_json(std::string_view bytes, const std::string& name);
+/// The level that they show, of those that there are (not empty).
+[[nodiscard]] double chosen_detail(std::span<const double> present, double detail);
 
 }  // namespace vantage

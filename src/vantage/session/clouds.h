@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "vantage/session/point_filter.h"
 #include "vantage/surface/surface.h"
 
 namespace vantage {
@@ -22,6 +23,9 @@ using AnyScans = std::variant<std::vector<ScannedPoints<2>>, std::vector<Scanned
 
 /// Each point cloud, and each scan of scan logs and run folders. Throws io, or bad_input for a malformed file or a mixture of plane and space.
 [[nodiscard]] AnyScans read_scans(std::span<const std::filesystem::path> paths);
+/// The same without the points that the filter takes out, which are added to `report`. Throws bad_input for a scan of a plane, or one without the
+/// place it was taken from.
+[[nodiscard]] AnyScans read_scans(std::span<const std::filesystem::path> paths, const FilterOptions& filter, FilterReport* report);
 
 /// All their points, one scan after the other.
 template <int Dim>

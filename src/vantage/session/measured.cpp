@@ -129,6 +129,7 @@ void describe(MeasuredOptions& o, const OptionVisitor& visit) {
   visit("range", o.range, "m", Range{0.0, 1e5},
         "farther points are left out; 0: by the points, half as far again as all but the farthest in a thousand lie");
   visit.angle("step_deg", o.step, Range{0.0, 30.0}, "angle between rays of the range image; 0: by the points");
+  describe(o.filter, visit);
 }
 
 std::vector<MeasuredInput> read_measured(std::span<const fs::path> files, const GivenPoses& given, const MeasuredOptions& options, double range) {
@@ -158,8 +159,11 @@ std::vector<MeasuredInput> read_measured(std::span<const fs::path> files, const 
     const MeasuredScan& scan = scans[k].scan;
     try {
       BinnedScan<3> binned = bin_points<3>(clouds[k], places[k].pose, bins, order_of(scan));
+      const FilterReport filtered =
+          filter_points(binned.scan.points, {binned.scan.origin, binned.scan.world_from_sensor}, binned.report.step, options.filter);
+      require(!binned.scan.points.empty(), "no points are left by the filter");
       inputs.push_back(
-          {std::move(binned.scan), binned.report, fs::path(scan.name).filename().string(), scan.format, places[k].source, scan.not_finite});
+          {std::move(binned.scan), binned.report, filtered, fs::path(scan.name).filename().string(), scan.format, places[k].source, scan.not_finite});
     } catch (const Error& error) {
       throw Error(error.code(), error.what(), scan.name);
     }

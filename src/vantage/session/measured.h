@@ -8,6 +8,7 @@
 
 #include "vantage/base/options.h"
 #include "vantage/scan/bin_points.h"
+#include "vantage/session/point_filter.h"
 
 namespace vantage {
 
@@ -22,6 +23,7 @@ struct MeasuredOptions {
   double min_range = 0.3;  ///< [m]
   double range = 0.0;      ///< [m]; 0: by the points.
   double step = 0.0;       ///< [rad]; 0: by the points.
+  FilterOptions filter;    ///< Of the points that go to the surface; the image keeps their ranges, so that nothing behind them counts as seen.
 };
 
 void describe(MeasuredOptions& options, const OptionVisitor& visit);
@@ -36,6 +38,7 @@ struct GivenPoses {
 struct MeasuredInput {
   Scan<3> scan;
   BinReport report;
+  FilterReport filtered;
   std::string name;    ///< Of the file, and which of its scans.
   std::string format;  ///< "PCD, ascii"
   std::string pose;    ///< Where the pose is from: "poses.csv", "--at", "the file".

@@ -13,6 +13,7 @@
 #include "vantage/io/atomic_file.h"
 #include "vantage/session/next_options.h"
 #include "vantage/session/outputs.h"
+#include "vantage/session/repeated.h"
 #include "vantage/session/run_folder.h"
 #include "vantage/session/scan_log.h"
 #include "vantage/session/scenario_file.h"
@@ -26,6 +27,7 @@ constexpr double kCells = 112.0;            // Along the domain's longest side, 
 constexpr double kMostNodes = 4e6;          // The lattice is made coarser than that.
 constexpr double kTrim = 0.005;             // Share of the points that may lie outside of the domain, at each end of each axis: strays.
 constexpr double kNoOverlap = 0.05;         // A scan with less of its points on known surface may be of another place.
+constexpr double kRepeated = 0.9;           // A scan with more of its points in another one is that one.
 constexpr const char* kMeasured = "scans";  // The scene's name in scenario.toml.
 
 /// Scans in an order that is given, from a log or from memory.
@@ -183,6 +185,8 @@ std::string input_line(const MeasuredInput& input) {
   if (r.near > 0) out += fmt::format("; {} nearer than {:g} m left out", r.near, input.scan.pattern.min_range);
   if (r.far > 0) out += fmt::format("; {} beyond {:g} m left out", r.far, input.scan.pattern.max_range);
   if (input.not_finite > 0) out += fmt::format("; {} not finite left out", input.not_finite);
+  if (input.filtered.mixed > 0) out += fmt::format("; {} mixed pixels left out", input.filtered.mixed);
+  if (input.filtered.isolated > 0) out += fmt::format("; {} isolated points left out", input.filtered.isolated);
   return out;
 }
 
@@ -210,6 +214,27 @@ std::string no_return_note(std::span<const MeasuredInput> inputs, const Measured
       free ? fmt::format("count as free up to {:g} m (--no-return unknown otherwise)", range) : "count as unknown", share(between), share(outside));
 }
 
+/// What the filter took out, by which rule.
+std::string filter_note(std::span<const MeasuredInput> inputs, const FilterOptions& options) {
+  FilterReport sum;
+  for (const MeasuredInput& input : inputs) {
+    sum.points += input.filtered.points;
+    sum.mixed += input.filtered.mixed;
+    sum.isolated += input.filtered.isolated;
+  }
+  const auto share = [&](std::int64_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(std::max<std::int64_t>(sum.points, 1)); };
+  using What = FilterOptions::What;
+  std::string out = fmt::format("Of {} points the filter left out", sum.points);
+  if (options.what != What::isolated)
+    out += fmt::format(
+        " {} mixed pixels ({:.2f} %: between a nearer and a farther neighbour, both at least {:g} m off and within {:g} degrees of the ray)",
+        sum.mixed, share(sum.mixed), options.jump, degrees(options.angle));
+  if (options.what != What::mixed)
+    out += fmt::format("{} {} isolated points ({:.2f} %: fewer than {} others within {:g} distances between rays)",
+                       options.what == What::both ? " and" : "", sum.isolated, share(sum.isolated), options.neighbours, options.radius);
+  return out + ". Their rays end where they did: nothing behind them counts as seen.";
+}
+
 /// A person's scans and the folder they may live in.
 class MeasuredRun {
  public:
@@ -229,9 +254,13 @@ class MeasuredRun {
       stage("read");
       added_ = read_measured(files, request.poses, setup_.measured, range);
       outcome_.notes.push_back(no_return_note(added_, setup_.measured));
+      if (setup_.measured.filter.what != FilterOptions::What::none) outcome_.notes.push_back(filter_note(added_, setup_.measured.filter));
     }
     for (const MeasuredInput& input : added_) outcome_.inputs.push_back(input_line(input));
-    skip_known();
+    if (!request.force) {
+      skip_known();
+      refuse_repeated();
+    }
     require(scans() > 0, "no scans are left", request.folder.string());
   }
 
@@ -276,6 +305,19 @@ class MeasuredRun {
       if (observer_ != nullptr) observer_->warn(fmt::format("{}: is scan {} of the run already, and not added again", input.name, *known));
       return true;
     });
+  }
+  /// A scan counts once: the same points again would only pretend to be more.
+  void refuse_repeated() const {
+    for (std::size_t k = kept_.size(); k < static_cast<std::size_t>(scans()); ++k)
+      for (std::size_t before = 0; before < k; ++before) {
+        const SharedPoints shared = shared_points(scan(static_cast<int>(k)), scan(static_cast<int>(before)));
+        if (shared.share < kRepeated) continue;
+        const std::string other = before < kept_.size() ? fmt::format("scan {}", kept_[before]) : added_[before - kept_.size()].name;
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{:.0f} % of its points are those of {}{}: a scan counts once (--force adds it all the same)", 100.0 * shared.share,
+                                other, shared.elsewhere ? ", taken at another place" : ""),
+                    added_[k - kept_.size()].name);
+      }
   }
   [[nodiscard]] int scans() const { return static_cast<int>(kept_.size() + added_.size()); }
   [[nodiscard]] Scan<3> scan(int k) const {
@@ -399,7 +441,12 @@ class MeasuredRun {
             {"points", input.report.points},
             {"pose", input.pose},
             {"step_deg", degrees(input.report.step)},
-            {"left_out", {{"near", input.report.near}, {"far", input.report.far}, {"not_finite", input.not_finite}}},
+            {"left_out",
+             {{"near", input.report.near},
+              {"far", input.report.far},
+              {"not_finite", input.not_finite},
+              {"mixed", input.filtered.mixed},
+              {"isolated", input.filtered.isolated}}},
             {"crc32", fmt::format("{:08x}", scan_fingerprint<3>(input.scan))}};
   }
 
@@ -442,6 +489,8 @@ NextOutcome find_next(const NextRequest& given, Observer* observer) {
   require(!request.inputs.empty(), "no scans are named: point clouds, or a run folder");
   const ThreadLimit limit(request.threads);
   std::span<const fs::path> files(request.inputs);
+  if (fs::path& first = request.inputs.front(); first.filename() == run_file::kScanLog && is_run_folder(fs::absolute(first).parent_path()))
+    first = fs::absolute(first).parent_path();  // The log of a run stands for its folder.
   if (restore_replaced_run(request.inputs.front()) && observer != nullptr)
     observer->warn(fmt::format("{}: the run that was to be replaced is back", request.inputs.front().string()));
   const bool exists = is_run_folder(request.inputs.front()) && !has_only_begun(request.inputs.front());

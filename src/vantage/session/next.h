@@ -18,6 +18,7 @@ struct NextRequest {
   GivenPoses poses;
   std::vector<Setting> settings;  ///< `next.*`, `measured.*` and those of a scenario, in order of force; those of the folder come before.
   std::vector<int> remove;        ///< Scans to take out of the folder's log first.
+  bool force = false;             ///< Add a scan even if its points are those of another one.
   int threads = 0;                ///< 0: all cores.
 };
 

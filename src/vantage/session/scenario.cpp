@@ -16,6 +16,9 @@ namespace {
 void describe(SceneFileOptions& options, const OptionVisitor& visit) {
   visit("up", options.up, {"file", "y", "z"}, "up axis of a mesh file; file: what the file says, else z");
   visit("unit", options.unit, "m", Range{0.0, 1e6}, "metres per unit of a mesh file; 0: what the file says, else 1");
+  visit("detail", options.detail, "", Range{-1.0, 100.0},
+        "of a city model (CityJSON, CityGML) each object at its highest level of detail not above this, else its lowest; -1: its highest");
+  visit("ground", options.ground, "m", Range{-kInfinity, 1e7}, "height of level ground that is added to mesh files which have none; -inf: none");
 }
 
 std::vector<Option> file_options(SceneFileOptions& options) {

@@ -14,9 +14,10 @@
 namespace vantage {
 namespace {
 
-constexpr int kColumns = 24;        ///< Along either side.
-constexpr int kLevels = 8;          ///< Of the lattice in mid-air.
-constexpr double kEyeHeight = 1.7;  ///< [m]
+constexpr int kColumns = 24;             ///< Along either side.
+constexpr int kLevels = 8;               ///< Of the lattice in mid-air.
+constexpr double kEyeHeight = 1.7;       ///< [m]
+constexpr double kAboveClearance = 1.1;  ///< So that the ground itself is clear in a place of large cells.
 constexpr int kAzimuths = 32;
 constexpr std::array<double, 2> kRises{0.03, 0.15};  ///< Sines.
 
@@ -72,7 +73,7 @@ double ground_level(const RayCaster<3>& world, const Box<3>& bounds) {
 
 Vec<3> find_start(const RayCaster<3>& world, const Box<3>& domain, const StartNeeds& needs) {
   const Vec<3> size = domain.size(), center = domain.center();
-  const double eye = std::min(kEyeHeight, 0.5 * size[2]), half = 0.5 * size.head<2>().norm();
+  const double eye = std::min(std::max(kEyeHeight, kAboveClearance * needs.clearance), 0.5 * size[2]), half = 0.5 * size.head<2>().norm();
   const auto score = [&](const Vec<3>& p) {
     if (world.distance(p, needs.clearance) < needs.clearance) return 0.0;
     const double off = (p - center).head<2>().norm() / half;

@@ -145,7 +145,9 @@ const std::vector<SceneInfo>& scene_list() {
 
 AnyScene make_scene(std::string_view spec, const SceneFileOptions& options) {
   const std::string_view name = spec.substr(0, spec.find(':'));
-  if (const Generator* generator = find_generator(name)) return generate(*generator, spec);
+  const Generator* generator = find_generator(name);
+  require(!generator || options.ground == -kInfinity, "scene.ground: of mesh files; a built-in scene has its own", std::string(name));
+  if (generator) return generate(*generator, spec);
   if (names_file(spec)) return load_scene_file(spec, options);
   throw Error(ErrorCode::bad_input, fmt::format("scene '{}': neither a file nor one of {}{}", name, join_names(scene_list()), did_you_mean(name)));
 }

@@ -49,10 +49,12 @@ struct SceneInfo {
 struct SceneFileOptions {
   enum class Up { file, y, z } up = Up::file;  ///< Up axis; `file`: what DAE says, y for glTF, else z.
   double unit = 0.0;                           ///< Metres per file unit, of a map per pixel; 0: what the file says, else 1 (map 0.05).
+  double detail = -1.0;                        ///< Highest level of detail of a city model; < 0: the highest of each object.
+  double ground = -kInfinity;                  ///< Height of level ground under the mesh files that is added to them [m]; -infinity: none.
 };
 
-/// A built-in scene `NAME[:key=value,...]`, a mesh file (OBJ, PLY, STL, DAE, glTF, GLB), or a 2D occupancy map (`.yaml` of ROS, or the image).
-/// Throws bad_input with what is allowed; io when the file cannot be read.
+/// A built-in scene `NAME[:key=value,...]`, a mesh file (OBJ, PLY, STL, DAE, glTF, GLB, CityJSON, CityGML), or a 2D occupancy map (`.yaml` of ROS, or
+/// the image). Throws bad_input with what is allowed; io when the file cannot be read.
 [[nodiscard]] AnyScene make_scene(std::string_view spec, const SceneFileOptions& options = {});
 
 }  // namespace vantage

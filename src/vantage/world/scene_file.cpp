@@ -37,7 +37,13 @@ std::vector<fs::path> split(const fs::path& spec) {
 MeshFileOptions mesh_options(const SceneFileOptions& options) {
   using Up = MeshFileOptions::Up;
   const Up up = options.up == SceneFileOptions::Up::y ? Up::y : options.up == SceneFileOptions::Up::z ? Up::z : Up::file;
-  return {up, options.unit};
+  return {up, options.unit, options.detail};
+}
+
+/// The file's name without its endings: `delft.city.json` is delft.
+std::string name_of(const fs::path& path) {
+  const fs::path stem = path.stem();
+  return stem.extension() == ".city" ? stem.stem().string() : stem.string();
 }
 
 void append(Scene<3>& scene, const Mesh<3>& mesh, const std::string& part) {
@@ -48,6 +54,22 @@ void append(Scene<3>& scene, const Mesh<3>& mesh, const std::string& part) {
     scene.mesh.facets.push_back(facet);
   }
   scene.parts.push_back({part, first, static_cast<std::uint32_t>(mesh.facets.size())});
+}
+
+/// Level ground at height z below all of the mesh and as far beyond it as the domain is to reach, so that the rim of the place can be walked around.
+void add_ground(Scene<3>& scene, double z) {
+  constexpr double kRim = 0.05, kLeastRim = 2.0, kMostRim = 20.0;  // Of the mesh's longer side; [m].
+  const Box<3> box = scene.mesh.bounds();
+  require(z < box.high[2], fmt::format("scene.ground = {:g}: must be below the top of the scene, {:g} m", z, box.high[2]));
+  const double side = box.size().head<2>().maxCoeff();
+  require(box.low[2] - z <= std::max(side, box.size()[2]),
+          fmt::format("scene.ground = {:g}: lies farther below the scene, {:g} m, than that is large", z, box.low[2]));
+  const double rim = std::clamp(kRim * side, kLeastRim, kMostRim);
+  const Vec<2> low = box.low.head<2>().array() - rim, high = box.high.head<2>().array() + rim;
+  Mesh<3> ground;
+  ground.vertices = {{low[0], low[1], z}, {high[0], low[1], z}, {high[0], high[1], z}, {low[0], high[1], z}};
+  ground.facets = {{0, 1, 2}, {0, 2, 3}};
+  append(scene, ground, "ground");
 }
 
 /// Domain, scales and start from the mesh. The domain begins at the ground and leaves 2 to 5 m of air above the highest roof.
@@ -77,15 +99,18 @@ double nice_number(double value) {
 
 AnyScene load_scene_file(const fs::path& spec, const SceneFileOptions& options) {
   const std::vector<fs::path> paths = split(spec);
-  const std::string name = paths.front().stem().string();
+  const std::string name = name_of(paths.front());
+  const bool ground = options.ground > -kInfinity;
+  require(!ground || paths.size() > 1 || !is_map_file(spec), "scene.ground: a plane map has no ground", spec.string());
   if (paths.size() == 1 && is_map_file(spec)) return map_scene(read_occupancy_map(spec, options.unit), name, spec.string());
   Scene<3> scene;
   scene.name = name;
   for (const fs::path& path : paths) {
     require(is_mesh_file(path), fmt::format("not a scene file: its name must end in {}, or .yaml, .png, .pgm alone", mesh_extensions()),
             path.string());
-    append(scene, read_mesh(path, mesh_options(options)), path.stem().string());
+    append(scene, read_mesh(path, mesh_options(options)), name_of(path));
   }
+  if (ground) add_ground(scene, options.ground);
   furnish(scene);
   return scene;
 }

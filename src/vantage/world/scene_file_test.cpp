@@ -198,5 +198,50 @@ TEST(SceneFile, TownStartsOutdoors) {
   EXPECT_LT((scene.start - scene.domain.center()).head<2>().norm(), 60.0);
 }
 
+TEST(SceneFile, DelftStartsInAStreet) {
+  VANTAGE_NEEDS_DATA("delft_cityjson");
+  const auto scene = std::get<Scene<3>>(load_scene_file(data_set("delft_cityjson") / "delft.json"));
+  expect_good_start(scene);  // Clear of the ground, too, though the cells are larger than a man.
+  const RayCaster<3> world(scene.mesh);
+  EXPECT_EQ(world.cast(scene.start, Vec<3>::UnitZ()).range, kInfinity);
+  EXPECT_NEAR(world.cast(scene.start, -Vec<3>::UnitZ()).range, 1.1 * scene.clearance, 0.3);
+  const auto ranges = SimulatedLidar<3>(scene.mesh, {}).scan(scene.start, 0).ranges;
+  EXPECT_GT(std::count_if(ranges.begin(), ranges.end(), [](float r) { return std::isfinite(r); }), static_cast<std::ptrdiff_t>(ranges.size() / 2));
+}
+
+TEST(SceneFile, GroundIsAddedWhereAskedFor) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "two.city.json";
+  // Two walls, 10 m apart, 4 m high, far from the origin and standing at 2 m.
+  std::ofstream(path) << R"({"type":"CityJSON","version":"1.1","transform":{"scale":[1,1,1],"translate":[84616,447423,2]},"CityObjects":{"a":{
+    "type":"Building","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3]],[[4,5,6,7]]]}]}},
+    "vertices":[[0,0,0],[20,0,0],[20,0,4],[0,0,4],[0,10,0],[20,10,0],[20,10,4],[0,10,4]]})";
+  const auto load = [&](double ground) {
+    SceneFileOptions options;
+    options.ground = ground;
+    return std::get<Scene<3>>(load_scene_file(path, options));
+  };
+  const Scene<3> bare = load(-kInfinity), scene = load(2.0);
+  EXPECT_EQ(scene.name, "two");
+  EXPECT_EQ(bare.mesh.facets.size(), 4U);
+  ASSERT_EQ(scene.mesh.facets.size(), 6U);
+  ASSERT_EQ(scene.parts.size(), 2U);
+  EXPECT_EQ(scene.parts[1].name, "ground");
+  EXPECT_EQ(scene.parts[1].first, 4U);
+  // 2 m around the walls, and the domain begins on it.
+  EXPECT_EQ(scene.domain.low, Vec<3>(84614, 447421, 2));
+  EXPECT_EQ(scene.domain.high.head<2>(), Vec<2>(84638, 447435));
+  const RayCaster<3> world(scene.mesh);
+  for (const Vec<2>& at : {Vec<2>(84614.01, 447421.01), Vec<2>(84637.9, 447434.9), Vec<2>(84626, 447428)})
+    EXPECT_NEAR(world.cast({at[0], at[1], 5.0}, -Vec<3>::UnitZ(), 10.0).range, 3.0, 1e-9);
+  expect_good_start(scene);
+  EXPECT_NEAR(scene.start[2], 3.7, 1e-9);
+  EXPECT_THAT(error_of([&] { (void)load(6.0); }), HasSubstr("scene.ground = 6: must be below the top of the scene, 6 m"));
+  EXPECT_THAT(error_of([&] { (void)load(-100.0); }), HasSubstr("lies farther below"));
+  SceneFileOptions options;
+  options.ground = 0.0;
+  EXPECT_THAT(error_of([&] { (void)make_scene("town", options); }), HasSubstr("a built-in scene has its own"));
+}
+
 }  // namespace
 }  // namespace vantage
