@@ -3,14 +3,16 @@
 
 import resource
 import subprocess
+import tempfile
 
 import pytest
 import sweep
 
 
 @pytest.fixture
-def bench(vantage, tmp_path):
-    return sweep.Bench(vantage("--version").args[0], tmp_path)
+def bench(vantage):
+    with tempfile.TemporaryDirectory(dir=sweep.fast_folder()) as folder:
+        yield sweep.Bench(vantage("--version").args[0], folder)
 
 
 @pytest.mark.parametrize(("case", "share"), [("explore", 0.04), ("next", 0.03)])
@@ -38,4 +40,4 @@ def test_a_file_that_may_not_grow(bench, limit):
 
 
 def test_killed_at_any_time(bench):
-    assert sweep.random_kills(bench, 12, 1, print) == []
+    assert sweep.random_kills(bench, 8, 1, print) == []
