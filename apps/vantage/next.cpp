@@ -194,6 +194,8 @@ std::string answer_text(const vantage::NextOutcome& outcome) {
       out += fmt::format("  {:<8} {}: {} {} beyond the better ones, {:.1f} m away\n", k == 1 ? "or" : "", place_text(place["vantage"]),
                          volume(number(place["added_volume_m3"])), unit, number(place["path_m"]));
     }
+    if (const Json& tour = j["tour"]; tour["order"].size() > 1)
+      out += fmt::format("  tour     of all of them: {}; {:.1f} m\n", fmt::join(tour["order"].get<std::vector<int>>(), ", "), number(tour["path_m"]));
   }
   out += fmt::format("  seen     {} {} by {} scans; {:.1f} % of what can be seen (between {:.1f} and {:.1f} %)\n", volume(number(j["seen_m3"])), unit,
                      j["scans"].get<int>(), 100.0 * number(j["verdict"]["seen_fraction"]), 100.0 * number(j["verdict"]["seen_fraction_bounds"][0]),

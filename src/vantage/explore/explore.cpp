@@ -179,8 +179,8 @@ struct Explorer<Dim>::Impl {
     constexpr double kComplete = 0.99;  // Of what can be seen, as estimated.
     verdict.end = decision.end;
     constexpr double kSure = 0.9;  // At least.
-    verdict.complete = (decision.end == End::nothing_can_open || decision.end == End::below_threshold) && verdict.seen_fraction >= kComplete &&
-                       verdict.seen_low >= kSure;
+    const bool looked_through = decision.end == End::nothing_can_open || decision.end == End::below_threshold || decision.end == End::unreachable;
+    verdict.complete = looked_through && verdict.seen_fraction >= kComplete && verdict.seen_low >= kSure;
     if (decision.end == End::none)
       for (UnseenRegion<Dim>& region : verdict.unseen)
         if (region.reason == "below the threshold") region.reason = "not looked at yet";
@@ -190,7 +190,9 @@ struct Explorer<Dim>::Impl {
         verdict.reason = fmt::format("The best place would show less than {:g} of the seen volume, twice in a row.", options.planner.stop_volume);
         break;
       case End::idle: verdict.reason = fmt::format("{} scans in a row showed nothing new.", options.planner.idle_limit); break;
-      case End::unreachable: verdict.reason = "Unseen space remains, but no place to scan from can be reached with the clearance asked for."; break;
+      case End::unreachable:
+        verdict.reason = "Unseen space remains, but no other place to scan from can be reached with the clearance asked for.";
+        break;
       case End::none:
         verdict.reason = finished ? fmt::format("The limit of {} scans is reached.", options.max_scans) : "The exploration is not finished.";
         break;

@@ -23,8 +23,6 @@ struct Part {
   double open = 0.0;             // What its faces are expected to open [m^Dim].
   double rim = 0.0;              // A layer of cells behind its faces [m^Dim].
   double stuck = 0.0;            // Straight behind the faces in the open that stay although someone looked [m^Dim].
-  double beyond = 0.0;           // The same of those seen through something narrow [m^Dim].
-  int through = 0;               // Faces beside what was seen through something narrow.
   double glimpsed = 0.0;         // Nodes a ray went by.
   std::size_t viewer = kNoNode;  // Sees a part of it that may open.
   bool has_face = false, reachable = false, doubtful = false, squeezed = false;
@@ -121,16 +119,9 @@ void add_faces(const BeliefView<Dim>& view, std::span<const BoundaryFace<Dim>> f
     const bool stubborn = looked_for && std::binary_search(options.last_look->stubborn.begin(), options.last_look->stubborn.end(), face.unseen);
     // Off the walls and deep, beside what was seen through something narrow: nobody can tell how far it goes on.
     const bool through = looked_for && air[face.seen] == 0 && face.known_distance >= 0.75 * h && depth_behind(view, face, 2.0 * h) >= 2.0 * h;
-    part.doubtful = part.doubtful || viewable;
-    part.through += through ? 1 : 0;
-    if (stubborn) (through ? part.beyond : part.stuck) += behind;
+    part.doubtful = part.doubtful || viewable || through;
+    if (stubborn) (through ? part.open : part.stuck) += behind;
     if (viewable) part.open += behind * face.probability;
-  }
-  const auto window = static_cast<int>(cell_measure<Dim>(3.0, Dim - 1));  // Faces of a window three cells wide; fewer are chance.
-  for (Part<Dim>& part : parts) {
-    const bool wide = part.through >= window;
-    part.doubtful = part.doubtful || wide;
-    (wide ? part.open : part.stuck) += part.beyond;
   }
   for (const LastLook* look : {options.last_look, options.squeezed}) {
     if (look == nullptr || !look->asked) continue;

@@ -11,6 +11,7 @@
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/io/atomic_file.h"
+#include "vantage/session/next_answer.h"
 #include "vantage/session/next_options.h"
 #include "vantage/session/outputs.h"
 #include "vantage/session/repeated.h"
@@ -45,81 +46,6 @@ class Playback final : public Sensor<Dim> {
 template <int Dim>
 std::vector<double> numbers_of(const Vec<Dim>& p) {
   return {p.data(), p.data() + Dim};
-}
-
-double length_of(const auto& path) {
-  double sum = 0.0;
-  for (std::size_t k = 1; k < path.size(); ++k) sum += (path[k] - path[k - 1]).norm();
-  return sum;
-}
-
-/// What was decided.
-template <int Dim>
-struct Answer {
-  std::vector<RankedPlace<Dim>> ranked;
-  Verdict<Dim> verdict;
-};
-
-template <int Dim>
-Answer<Dim> decide(const Explorer<Dim>& explorer, const NextOptions& options) {
-  RankRequest<Dim> request;
-  request.count = options.count;
-  request.apart = options.apart > 0.0 ? options.apart : std::max(1.0, 4.0 * explorer.window().spacing);
-  request.overlap = options.overlap;
-  request.planned = places_of<Dim>(options.planned);
-  request.among = places_of<Dim>(options.among);
-  if (!request.among.empty() && options.apart == 0.0) request.apart = 0.0;  // Somebody else has spread them.
-  Answer<Dim> answer{explorer.rank(request), explorer.verdict()};
-  Verdict<Dim>& verdict = answer.verdict;
-  if (!answer.ranked.empty()) {
-    const char* unit = std::array{"m²", "m³"}[Dim - 2];
-    if (!verdict.complete)
-      verdict.reason = fmt::format("Unseen space remains: the best place would show about {:.3g} {}.", answer.ranked[0].new_volume, unit);
-    for (UnseenRegion<Dim>& region : verdict.unseen)
-      if (region.reason == "below the threshold") region.reason = "not looked at yet";
-  } else if (verdict.reason.starts_with("The limit") || verdict.reason.starts_with("The exploration")) {
-    verdict.reason = "Unseen space remains, but no place is left that shows enough of it and has what was asked for.";
-  }
-  return answer;
-}
-
-template <int Dim>
-Json ranked_json(const RankedPlace<Dim>& place) {
-  return {{"vantage", to_json<Dim>(place.position)}, {"score", place.score},          {"new_volume_m3", place.new_volume},
-          {"added_volume_m3", place.added_volume},   {"new_area_m2", place.new_area}, {"overlap", place.overlap},
-          {"path_m", length_of(place.path)}};
-}
-
-template <int Dim>
-Json answer_json(const Answer<Dim>& answer, const Explorer<Dim>& explorer) {
-  Json ranked = Json::array(), path = Json::array();
-  for (const RankedPlace<Dim>& place : answer.ranked) ranked.push_back(ranked_json(place));
-  if (!answer.ranked.empty())
-    for (const Vec<Dim>& p : answer.ranked[0].path) path.push_back(to_json<Dim>(p));
-  const bool any = !answer.ranked.empty();
-  return {{"vantage", any ? ranked[0]["vantage"] : Json()},
-          {"score", any ? Json(answer.ranked[0].score) : Json()},
-          {"ranked", ranked},
-          {"unseen_m3", answer.verdict.unseen_volume},
-          {"path", path},
-          {"verdict", to_json(answer.verdict)},
-          {"dim", Dim},
-          {"scans", explorer.steps().size()},
-          {"seen_m3", explorer.steps().back().seen_volume},
-          {"voxel_m", explorer.window().spacing}};
-}
-
-template <int Dim>
-std::string next_csv(const Answer<Dim>& answer) {
-  std::string out = "rank,x,y,z,score,new_volume_m3,added_volume_m3,new_area_m2,overlap,path_m\n";
-  int rank = 0;
-  for (const RankedPlace<Dim>& p : answer.ranked) {
-    Vec<3> at = Vec<3>::Zero();
-    at.template head<Dim>() = p.position;
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", ++rank, at[0], at[1], at[2], p.score, p.new_volume, p.added_volume, p.new_area, p.overlap,
-                       length_of(p.path));
-  }
-  return out;
 }
 
 /// An explorer that has gone through all scans.
@@ -167,7 +93,7 @@ NextOutcome of_explored(const NextRequest& request, const World& world, const Sc
   NextOutcome outcome;
   explorer.set_rule(station_rule<Dim>(setup.next, options.planner.clearance, false, outcome.notes));
   play(explorer, log.size(), observer);
-  const Answer<Dim> answer = decide(explorer, setup.next);
+  const NextAnswer<Dim> answer = next_answer(explorer, setup.next);
   outcome.json = answer_json(answer, explorer);
   outcome.folder = request.folder;
   outcome.unreachable = answer.ranked.empty() && !answer.verdict.complete;
@@ -274,7 +200,7 @@ class MeasuredRun {
     explorer.set_rule(station_rule<3>(setup_.next, options.planner.clearance, true, outcome_.notes));
     play_and_compare(explorer);
     stage("ranking");
-    const Answer<3> answer = decide(explorer, setup_.next);
+    const NextAnswer<3> answer = next_answer(explorer, setup_.next);
     outcome_.json = answer_json(answer, explorer);
     outcome_.json["eta_m"] = options.surface.eta;
     outcome_.json["domain"] = {to_json<3>(scene_.domain.low), to_json<3>(scene_.domain.high)};
@@ -407,7 +333,7 @@ class MeasuredRun {
   }
 
   /// The log first, which is the truth; then all that is made from it.
-  void save(const Explorer<3>& explorer, const Answer<3>& answer) {
+  void save(const Explorer<3>& explorer, const NextAnswer<3>& answer) {
     std::optional<NewFolder> fresh;
     const fs::path path = request_.folder / run_file::kScanLog;
     if (!exists_) {

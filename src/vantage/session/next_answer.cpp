@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/session/next_answer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vantage {
+namespace {
+
+double length_of(const auto& path) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) sum += (path[k] - path[k - 1]).norm();
+  return sum;
+}
+
+template <int Dim>
+Json ranked_json(const RankedPlace<Dim>& place) {
+  return {{"vantage", to_json<Dim>(place.position)}, {"score", place.score},          {"new_volume_m3", place.new_volume},
+          {"added_volume_m3", place.added_volume},   {"new_area_m2", place.new_area}, {"overlap", place.overlap},
+          {"path_m", length_of(place.path)}};
+}
+
+/// Ranks from 1 in the order of the walk.
+template <int Dim>
+Json tour_json(const NextTour<Dim>& tour) {
+  Json order = Json::array(), path = Json::array();
+  for (const std::size_t station : tour.order) order.push_back(station + 1);
+  for (const Vec<Dim>& p : tour.path) path.push_back(to_json<Dim>(p));
+  return {{"order", order}, {"path_m", tour.length}, {"path", path}};
+}
+
+}  // namespace
+
+template <int Dim>
+NextAnswer<Dim> next_answer(const Explorer<Dim>& explorer, const NextOptions& options) {
+  RankRequest<Dim> request;
+  request.count = options.count;
+  request.apart = options.apart > 0.0 ? options.apart : std::max(1.0, 4.0 * explorer.window().spacing);
+  request.overlap = options.overlap;
+  request.planned = places_of<Dim>(options.planned);
+  request.among = places_of<Dim>(options.among);
+  if (!request.among.empty() && options.apart == 0.0) request.apart = 0.0;  // Somebody else has spread them.
+  NextAnswer<Dim> answer{explorer.rank(request), {}, explorer.verdict()};
+  std::vector<Vec<Dim>> stations;
+  for (const RankedPlace<Dim>& place : answer.ranked) stations.push_back(place.position);
+  answer.tour = tour_past<Dim>(explorer.reachable(), explorer.steps().back().vantage, stations);
+  Verdict<Dim>& verdict = answer.verdict;
+  if (!answer.ranked.empty()) {
+    const char* unit = std::array{"m²", "m³"}[Dim - 2];
+    if (!verdict.complete)
+      verdict.reason = fmt::format("Unseen space remains: the best place would show about {:.3g} {}.", answer.ranked[0].new_volume, unit);
+    for (UnseenRegion<Dim>& region : verdict.unseen)
+      if (region.reason == "below the threshold") region.reason = "not looked at yet";
+  } else if (verdict.reason.starts_with("The limit") || verdict.reason.starts_with("The exploration")) {
+    verdict.reason = "Unseen space remains, but no place is left that shows enough of it and has what was asked for.";
+  }
+  return answer;
+}
+
+template <int Dim>
+Json answer_json(const NextAnswer<Dim>& answer, const Explorer<Dim>& explorer) {
+  Json ranked = Json::array(), path = Json::array();
+  for (const RankedPlace<Dim>& place : answer.ranked) ranked.push_back(ranked_json(place));
+  if (!answer.ranked.empty())
+    for (const Vec<Dim>& p : answer.ranked[0].path) path.push_back(to_json<Dim>(p));
+  const bool any = !answer.ranked.empty();
+  return {{"vantage", any ? ranked[0]["vantage"] : Json()},
+          {"score", any ? Json(answer.ranked[0].score) : Json()},
+          {"ranked", ranked},
+          {"unseen_m3", answer.verdict.unseen_volume},
+          {"path", path},
+          {"tour", tour_json(answer.tour)},
+          {"verdict", to_json(answer.verdict)},
+          {"dim", Dim},
+          {"scans", explorer.steps().size()},
+          {"seen_m3", explorer.steps().back().seen_volume},
+          {"voxel_m", explorer.window().spacing}};
+}
+
+template <int Dim>
+std::string next_csv(const NextAnswer<Dim>& answer) {
+  std::string out = "rank,x,y,z,score,new_volume_m3,added_volume_m3,new_area_m2,overlap,path_m\n";
+  int rank = 0;
+  for (const RankedPlace<Dim>& p : answer.ranked) {
+    Vec<3> at = Vec<3>::Zero();
+    at.template head<Dim>() = p.position;
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", ++rank, at[0], at[1], at[2], p.score, p.new_volume, p.added_volume, p.new_area, p.overlap,
+                       length_of(p.path));
+  }
+  return out;
+}
+
+#define VANTAGE_INSTANTIATE(D)                                                   \
+  template NextAnswer<D> next_answer<D>(const Explorer<D>&, const NextOptions&); \
+  template Json answer_json<D>(const NextAnswer<D>&, const Explorer<D>&);        \
+  template std::string next_csv<D>(const NextAnswer<D>&);
+VANTAGE_INSTANTIATE(2)
+VANTAGE_INSTANTIATE(3)
+
+}  // namespace vantage
