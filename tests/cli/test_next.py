@@ -163,6 +163,17 @@ def test_a_run_of_explore_can_be_asked(vantage, rooms, tmp_path):
     assert answer["vantage"] == second
 
 
+def test_the_tour_passes_every_place(vantage, scan):
+    answer = ask(vantage, scan(2, 2, 1.5), "--at", "2,2,1.5", "--domain", DOMAIN, *COARSE, "--count", 4)
+    tour = answer["tour"]
+    assert sorted(tour["order"]) == list(range(1, len(answer["ranked"]) + 1)) and len(tour["order"]) > 1
+    assert math.dist(tour["path"][0], [2, 2, 1.5]) < 1e-9
+    for place in answer["ranked"]:
+        assert min(math.dist(place["vantage"], p) for p in tour["path"]) < 1e-9
+    assert tour["path_m"] == pytest.approx(sum(math.dist(a, b) for a, b in zip(tour["path"], tour["path"][1:])))
+    assert tour["path_m"] <= sum(2 * place["path_m"] for place in answer["ranked"])
+
+
 def test_a_scan_of_another_place_is_reported(vantage, scan, tmp_path):
     poses = tmp_path / "poses.txt"
     poses.write_text("2 2 1.5\n14 2 1.5\n")
