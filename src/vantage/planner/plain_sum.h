@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,24 @@ class PlainSum {
   std::vector<std::uint32_t> roots_;
   std::array<std::vector<float>, Dim> place_, normal_;  // Of the elements, leaf by leaf, places relative to its center; a few of area 0 fill up.
   std::vector<float> area_;
+};
+
+/// Eq. (1) at many places: by a tree, or with line of sight element by element. What it is made from must outlive it.
+template <int Dim>
+  requires SpatialDim<Dim>
+class BoundarySum {
+ public:
+  BoundarySum(std::span<const BoundaryElement<Dim>> elements, const RayMarch<Dim>& rays, const PlannerOptions& options)
+      : elements_(elements), rays_(rays), options_(options) {
+    if (!options.line_of_sight) plain_.emplace(elements, rays, options);
+  }
+  [[nodiscard]] double at(const Vec<Dim>& z) const { return plain_ ? plain_->at(z) : boundary_metric<Dim>(elements_, rays_, z, options_); }
+
+ private:
+  std::span<const BoundaryElement<Dim>> elements_;
+  const RayMarch<Dim>& rays_;
+  const PlannerOptions& options_;
+  std::optional<PlainSum<Dim>> plain_;
 };
 
 }  // namespace vantage

@@ -11,10 +11,7 @@
 
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
-#include "vantage/base/random.h"
 #include "vantage/field/fast_marching.h"
-#include "vantage/planner/baselines.h"
-#include "vantage/planner/boundary_metric.h"
 #include "vantage/planner/candidates.h"
 #include "vantage/planner/plain_sum.h"
 #include "vantage/planner/safe_path.h"
@@ -23,29 +20,6 @@ namespace vantage {
 namespace {
 
 constexpr double kMatters = 0.005;  // Of the seen volume: a last look that may show so much is always taken.
-
-/// In 2D a quarter of the rays does, and twice the candidates are affordable (planner.md Sec. 3, 4).
-template <int Dim>
-std::size_t fewer(std::int64_t rays) {
-  return static_cast<std::size_t>(std::max<std::int64_t>(rays >> (2 * (3 - Dim)), 16));
-}
-
-/// Eq. (1) at many places: by a tree, or with line of sight element by element.
-template <int Dim>
-class BoundarySum {
- public:
-  BoundarySum(std::span<const BoundaryElement<Dim>> elements, const RayMarch<Dim>& rays, const PlannerOptions& options)
-      : elements_(elements), rays_(rays), options_(options) {
-    if (!options.line_of_sight) plain_.emplace(elements, rays, options);
-  }
-  [[nodiscard]] double at(const Vec<Dim>& z) const { return plain_ ? plain_->at(z) : boundary_metric<Dim>(elements_, rays_, z, options_); }
-
- private:
-  std::span<const BoundaryElement<Dim>> elements_;
-  const RayMarch<Dim>& rays_;
-  const PlannerOptions& options_;
-  std::optional<PlainSum<Dim>> plain_;
-};
 
 /// w of every node, from the boxes of PlannerOptions::weights; empty if there are none.
 template <int Dim>
@@ -73,45 +47,6 @@ void check_weights(const std::vector<double>& weights) {
 }
 
 }  // namespace
-
-void describe(PlannerOptions& o, const OptionVisitor& visit) {
-  using namespace std::string_literals;
-  visit(
-      "metric", o.metric, Choices{"ray", "boundary", "nearest", "count", "random", "optimistic"},
-      "form of E: rays to the shadow boundary, or the paper's sum over its elements; or instead of E: nearest frontier, number of frontier faces in "
-      "view, any medial place, unseen volume up to the known surface");
-  visit("volume_weight", o.volume_weight, "", Range{0, 1e6}, "ray form: weight of the expected new volume");
-  visit("solid_angle_weight", o.solid_angle_weight, "", Range{0, 1e6}, "ray form: weight of the shadow boundary's solid angle");
-  visit("area_weight", o.area_weight, "", Range{0, 1e6}, "ray form: weight of Eq. (1) with line of sight");
-  visit("lambda_factor", o.lambda_factor, "", Range{0, 1e3}, "opacity of the unseen over the measured one; 0 is optimistic");
-  visit("learned", o.learned, "weigh faces by the learned probability to open; false: the two hard masks");
-  visit("rays", o.rays, "rays", Range{16, 1e6}, "for the first look at a candidate in 3D; 2D: a quarter");
-  visit("refine_rays", o.refine_rays, "rays", Range{16, 1e7}, "for the second look at the best in 3D; 2D: a quarter");
-  visit("refine", o.refine, "candidates", Range{1, 1e6}, "looked at twice");
-  visit("elements", o.elements, Choices{"faces", "smeared", "printed"}, "boundary sum: one element a face, smeared delta, or the delta as printed");
-  visit("facing", o.facing, Choices{"seen", "behind", "absolute"}, "boundary sum: which side counts; behind is as printed");
-  visit("mask", o.mask, Choices{"both", "known", "none"},
-        "boundary sum: without known surface and what was looked at frontally, without known surface, all as printed");
-  visit("normalise", o.normalise, "boundary sum: divide by the distance; false as printed");
-  visit("line_of_sight", o.line_of_sight, "boundary sum: only elements in view; false as printed");
-  visit("tree_angle", o.tree_angle, "rad", Range{0, 1},
-        "boundary sum without line of sight: groups of elements that look smaller are summed at once; 0: one by one");
-  visit("tau_power", o.tau_power, "", Range{0, 4}, "depth factor tau = r^-p, in quarters; 0 is the paper's");
-  visit("candidates", o.candidates, "places", Range{1, 1e6}, "evaluated at a step in 3D; 2D: twice as many");
-  visit("curvature", o.curvature, "", Range{0, 100}, "M h: candidates have -lap(psi) > M");
-  visit("printed_curvature", o.printed_curvature, "candidates by lap(psi) > M, as printed");
-  visit("clearance", o.clearance, "m", Range{0, 1e3}, "of a vantage point and of the path to known obstacles");
-  visit("travel_weight", o.travel_weight, "", Range{0, 4},
-        "p in E / (1 + walk / (speed x scan_time))^p, in quarters: 0 for few scans, 1 for little time, between for both");
-  visit("speed", o.speed, "m/s", Range{1e-3, 1e3}, "of travel, for travel_weight");
-  visit("scan_time", o.scan_time, "s", Range{1e-3, 1e6}, "of a scan with its set-up, for travel_weight");
-  visit("look_ahead", o.look_ahead, "candidates", Range{0, 1000}, "ray form: so many of the best are tried in pairs; 0: none, the best place itself");
-  visit("stop_volume", o.stop_volume, "", Range{0, 1}, "stop when the expected new volume is below this share of the seen, twice in a row");
-  visit("idle_limit", o.idle_limit, "scans", Range{1, 1e6}, "stop after so many in a row that gained nothing");
-  visit("last_looks", o.last_looks, "scans", Range{0, 1e6},
-        "before the end, look so often in a row at what nobody has looked at frontally, although little is expected of it");
-  visit("report_volume", o.report_volume, "m^d", Range{0, 1e9}, "smaller unseen regions are not listed; 0: 27 cells (2D: 9)");
-}
 
 template <int Dim>
   requires SpatialDim<Dim>
@@ -173,127 +108,6 @@ std::vector<Vec<Dim>> Planner<Dim>::path_to(std::size_t node, const Vec<Dim>& he
   std::vector<Vec<Dim>> path = safe_path(reachable_, node, reachable_.window.position(nearest_place(here)));
   path.insert(path.begin(), here);
   return path;
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-double Planner<Dim>::mix(const RaySums& sums) const {
-  const auto term = [](double weight, double value, double largest) { return largest > 0.0 ? weight * value / largest : 0.0; };
-  return term(options_.volume_weight, sums.volume, scale_.volume) + term(options_.solid_angle_weight, sums.solid_angle, scale_.solid_angle) +
-         term(options_.area_weight, sums.area, scale_.area);
-}
-
-/// What the way there leaves of E.
-template <int Dim>
-  requires SpatialDim<Dim>
-double Planner<Dim>::after_travel(std::size_t node) const {
-  if (walk_.values.empty()) return 1.0;
-  const double share = 1.0 + static_cast<double>(walk_[node]) / (options_.speed * options_.scan_time);
-  return std::isfinite(share) ? inverse_power(share, options_.travel_weight) : 0.0;
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-void Planner<Dim>::set_scale(std::span<const Scored> scored) {
-  scale_ = {};
-  for (const Scored& s : scored) {
-    scale_.volume = std::max(scale_.volume, s.sums.volume);
-    scale_.solid_angle = std::max(scale_.solid_angle, s.sums.solid_angle);
-    scale_.area = std::max(scale_.area, s.sums.area);
-  }
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) -> std::vector<Scored> {
-  const RayMarch<Dim> march = rays(view);
-  const std::uint64_t turn = seed_ * 1000003 + visited_.size();
-  std::vector<Scored> scored(nodes.size());
-  const auto look = [&](std::span<Scored> some, std::int64_t count) {
-    const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(count), turn + static_cast<std::uint64_t>(count));
-    parallel_for(some.size(), 1, [&](std::size_t i) { some[i].sums = march.look(view.window().position(some[i].node), directions); });
-  };
-  const auto rank = [&] {
-    set_scale(scored);
-    for (Scored& s : scored) s.score = mix(s.sums) * after_travel(s.node);
-    std::sort(scored.begin(), scored.end(),
-              [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
-  };
-  for (std::size_t i = 0; i < nodes.size(); ++i) scored[i].node = nodes[i];
-  look(scored, options_.rays);
-  rank();
-  const std::size_t best = std::min<std::size_t>(scored.size(), static_cast<std::size_t>(options_.refine));
-  look(std::span(scored).first(best), options_.refine_rays);
-  // The rest keeps its first look; only those looked at twice may win.
-  std::vector<Scored> rest(scored.begin() + static_cast<std::ptrdiff_t>(best), scored.end());
-  scored.resize(best);
-  rank();
-  for (Scored& s : rest) s.score = mix(s.sums) * after_travel(s.node);
-  scored.insert(scored.end(), rest.begin(), rest.end());
-  return scored;
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-auto Planner<Dim>::score_by_boundary(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) const -> std::vector<Scored> {
-  const RayMarch<Dim> march = rays(view);
-  const std::vector<BoundaryElement<Dim>> elements = boundary_elements(view, opening_.faces(), options_);
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_ * 1000003 + visited_.size());
-  std::vector<Scored> scored(nodes.size());
-  const BoundarySum<Dim> sum(elements, march, options_);
-  parallel_for(nodes.size(), 1, [&](std::size_t i) {
-    scored[i].node = nodes[i];
-    scored[i].score = sum.at(view.window().position(nodes[i])) * after_travel(nodes[i]);
-  });
-  std::sort(scored.begin(), scored.end(),
-            [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
-  // The end of the run is judged by expected volume whatever the metric (method.md Sec. 7): that of the best few.
-  parallel_for(std::min<std::size_t>(scored.size(), 64), 1,
-               [&](std::size_t i) { scored[i].sums = march.look(view.window().position(scored[i].node), directions); });
-  return scored;
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-auto Planner<Dim>::score_by_baseline(const BeliefView<Dim>& view, std::span<const std::size_t> nodes, std::span<const std::size_t> medial)
-    -> std::vector<Scored> {
-  using Metric = PlannerOptions::Metric;
-  const RayMarch<Dim> march = rays(view);
-  const std::vector<BoundaryFace<Dim>> frontier = frontier_faces(view, opening_.faces());
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_ * 1000003 + visited_.size());
-  std::vector<Scored> scored;
-  for (const std::size_t node : nodes) scored.push_back({node, {}, 0.0});
-  if (options_.metric == Metric::random && !medial.empty()) scored.push_back({medial[Random(seed_, visited_.size()).below(medial.size())], {}, 1.0});
-  if (options_.metric == Metric::nearest) {
-    const double h = view.window().spacing;
-    const auto places = frontier_places<Dim>(reachable_, frontier, visited_, options_.clearance + 1.5 * h);
-    if (places.empty()) return {};
-    scored.push_back({places[0].node, {}, 1.0 / (places[0].walk + h)});
-  }
-  parallel_for(scored.size(), 1, [&](std::size_t i) {
-    const Vec<Dim> z = view.window().position(scored[i].node);
-    scored[i].sums = march.look(z, directions);  // The end of the run is judged by expected volume whatever the metric.
-    if (options_.metric == Metric::count) scored[i].score = frontier_count<Dim>(frontier, march, z, max_range_) * after_travel(scored[i].node);
-  });
-  set_scale(scored);
-  return scored;
-}
-
-template <int Dim>
-  requires SpatialDim<Dim>
-auto Planner<Dim>::score_by_optimism(const BeliefView<Dim>& view, std::span<const std::size_t> medial) -> std::vector<Scored> {
-  const std::size_t most_blocks = static_cast<std::size_t>(options_.candidates) * 64;
-  if (!pool_) pool_.emplace(view.window(), most_blocks);
-  pool_->offer(medial);
-  // The same directions at every step: gains only fall.
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays), seed_);
-  std::vector<Scored> scored;
-  for (const auto& gain : pool_->best(rays(view), directions, reachable_, visited_)) {
-    scored.push_back({gain.node, {}, gain.volume});
-    scored.back().sums.volume = gain.volume;
-  }
-  set_scale(scored);
-  return scored;
 }
 
 template <int Dim>
@@ -395,7 +209,7 @@ template <int Dim>
 std::vector<double> Planner<Dim>::evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const {
   const RayMarch<Dim> march = rays(view);
   const bool by_rays = options_.metric != PlannerOptions::Metric::boundary;
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(fewer<Dim>(options_.rays / 2), seed_);
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(options_.rays / 2), seed_);
   const std::vector<BoundaryElement<Dim>> elements =
       by_rays ? std::vector<BoundaryElement<Dim>>{} : boundary_elements(view, opening_.faces(), options_);
   const BoundarySum<Dim> sum(elements, march, options_);

@@ -17,6 +17,13 @@ std::vector<Vec<2>> spread_directions<2>(std::size_t count, std::uint64_t seed);
 template <>
 std::vector<Vec<3>> spread_directions<3>(std::size_t count, std::uint64_t seed);
 
+/// How many directions a number of rays for 3D stands for: in 2D a quarter does (planner.md Sec. 3); 16 at least.
+template <int Dim>
+[[nodiscard]] constexpr std::size_t rays_in(std::int64_t rays) {
+  const std::int64_t fewer = rays >> (2 * (3 - Dim));
+  return static_cast<std::size_t>(fewer > 16 ? fewer : 16);
+}
+
 /// What the rays from one place add up to, before the terms are mixed.
 struct RaySums {
   double volume = 0.0;       ///< Expected new volume: sum of w T r^(d-1) dt dOmega [m^Dim].
