@@ -19,7 +19,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kMatters = 0.005;  // Of the seen volume: a last look that may show so much is always taken.
+constexpr double kMatters = 0.005;  // Of the seen volume: of last looks that may show so much there may be twice as many.
 
 /// w of every node, from the boxes of PlannerOptions::weights; empty if there are none.
 template <int Dim>
@@ -190,9 +190,11 @@ void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decisi
   const Field<Dim>* weight = weight_.values.empty() ? nullptr : &weight_;
   const Ground<Dim> ground{reachable_, visited_, max_range_, surface ? &*surface : nullptr, true, weight};
   last_look_ = looks_.look(view, opening_.faces(), ground);
-  const bool matters = last_look_.volume >= kMatters * seen_volume;
-  if (last_look_.place && options_.last_looks > 0 && (matters || last_looks_ < options_.last_looks)) {
-    if (!matters) ++last_looks_;
+  const std::int64_t limit = last_look_.volume >= kMatters * seen_volume ? 2 * options_.last_looks : options_.last_looks;
+  const std::int64_t others = static_cast<std::int64_t>(visited_.size()) - all_last_looks_;
+  if (last_look_.place && last_looks_ < limit && all_last_looks_ < options_.last_looks + others / 2) {
+    ++last_looks_;
+    ++all_last_looks_;
     looks_.answer(view, opening_.faces(), ground, *last_look_.place);
     decision.found = true;
     decision.end = Decision<Dim>::End::none;

@@ -134,6 +134,7 @@ class Planner {
   Glimpses<Dim> glimpses_;
   LastLook last_look_, squeezed_;              // Empty while there is better to do.
   int below_ = 0, idle_ = 0, last_looks_ = 0;  // Picks in a row.
+  std::int64_t all_last_looks_ = 0;
 };
 
 }  // namespace vantage

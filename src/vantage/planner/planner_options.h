@@ -52,7 +52,8 @@ struct PlannerOptions {
   // Stop.
   double stop_volume = 2e-4;     ///< Expected new volume as a share of the seen volume, twice in a row.
   std::int64_t idle_limit = 30;  ///< Picks in a row that gained nothing.
-  std::int64_t last_looks = 6;   ///< Picks in a row at what nobody has looked at frontally, although little is expected of it, before the end.
+  std::int64_t last_looks = 6;   ///< Picks in a row at what nobody has looked at frontally, although little is expected of it, before the end; twice
+                                 ///< as many where much may show.
   double report_volume = 0.0;    ///< Unseen regions below this are not listed [m^Dim]; 0: a cube of three cells.
 };
 
