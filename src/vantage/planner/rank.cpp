@@ -145,7 +145,8 @@ std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, co
     if (close) continue;
     const RaySums sums = rays(view, &left).look(place, directions);
     if (entry.taken != ranked.size()) {  // Scores only fall as places are taken: the first that keeps its place is the best.
-      queue.push({mix(sums), entry.place, ranked.size()});
+      const double way = request.among.empty() ? after_travel(grid.linear(grid.nearest(place))) : 1.0;  // As in the first scores.
+      queue.push({mix(sums) * way, entry.place, ranked.size()});
       continue;
     }
     const double overlap = preview.overlap(place, directions);
