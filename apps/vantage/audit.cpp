@@ -79,11 +79,7 @@ void take(const std::string& option, const std::string& text, std::int64_t low, 
 
 std::vector<Setting> settings_of(const Flags& flags) {
   std::vector<Setting> settings;
-  for (const std::string& set : flags.sets) {
-    const std::size_t equals = set.find('=');
-    require(equals != std::string::npos && equals > 0, set + ": must be stage.option=value", "--set");
-    settings.push_back({set.substr(0, equals), set.substr(equals + 1), "--set"});
-  }
+  for (const std::string& set : flags.sets) settings.push_back(parse_setting(set, "--set"));
   if (!flags.voxel.empty()) settings.push_back({"explore.voxel", flags.voxel, "--voxel"});
   if (!flags.step.empty()) settings.push_back({"sensor.step_deg", flags.step, "--step-deg"});
   if (!flags.ground.empty()) settings.push_back({"scene.ground", flags.ground, "--ground"});

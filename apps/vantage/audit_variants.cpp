@@ -28,11 +28,7 @@ std::vector<std::string> split(const std::string& text) {
 
 std::vector<Setting> settings_of(const std::string& text, const std::string& where) {
   std::vector<Setting> settings;
-  for (const std::string& part : split(text)) {
-    const std::size_t equals = part.find('=');
-    require(equals != std::string::npos && equals > 0, part + ": must be stage.option=value", where);
-    settings.push_back({part.substr(0, equals), part.substr(equals + 1), where});
-  }
+  for (const std::string& part : split(text)) settings.push_back(vantage::parse_setting(part, where));
   return settings;
 }
 

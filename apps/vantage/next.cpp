@@ -131,11 +131,7 @@ class NextFlags {
   }
   [[nodiscard]] std::vector<Setting> settings() const {
     std::vector<Setting> all;
-    for (const std::string& text : sets_) {
-      const std::size_t equals = text.find('=');
-      require(equals != std::string::npos && equals > 0, text + ": must be stage.option=value", "--set");
-      all.push_back({text.substr(0, equals), text.substr(equals + 1), "--set"});
-    }
+    for (const std::string& text : sets_) all.push_back(vantage::parse_setting(text, "--set"));
     if (!unit_.empty()) all.push_back({"measured.unit", metres(unit_), "--unit"});
     std::size_t k = 0;
     for (const std::string& text : texts_) {

@@ -22,12 +22,6 @@ std::string help_of(const std::string& name) {
   return "first vantage point, inside the domain [m] (2D: x,y)";
 }
 
-Setting parse_set(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  vantage::require(equals != std::string::npos && equals > 0, text + ": must be stage.option=value", "--set");
-  return {text.substr(0, equals), text.substr(equals + 1), "--set"};
-}
-
 }  // namespace
 
 ScenarioArguments::ScenarioArguments(CommandParser& parser) {
@@ -64,7 +58,7 @@ void ScenarioArguments::add(CommandParser& parser, const std::string& name, cons
 std::vector<Setting> ScenarioArguments::settings() const {
   std::vector<Setting> all;
   if (!config_.empty()) all = vantage::read_scenario(config_);
-  for (const std::string& text : sets_) all.push_back(parse_set(text));
+  for (const std::string& text : sets_) all.push_back(vantage::parse_setting(text, "--set"));
   for (const Flag& flag : flags_)
     if (flag.option->count() > 0)
       for (const std::string& option : flag.options) all.push_back({option, flag.value, flag.name});

@@ -191,7 +191,9 @@ struct Explorer<Dim>::Impl {
         break;
       case End::idle: verdict.reason = fmt::format("{} scans in a row showed nothing new.", options.planner.idle_limit); break;
       case End::unreachable:
-        verdict.reason = "Unseen space remains, but no other place to scan from can be reached with the clearance asked for.";
+        verdict.reason = verdict.complete
+                             ? "No other place to scan from can be reached with the clearance asked for, and nothing more shows from those that can."
+                             : "Unseen space remains, but no other place to scan from can be reached with the clearance asked for.";
         break;
       case End::none:
         verdict.reason = finished ? fmt::format("The limit of {} scans is reached.", options.max_scans) : "The exploration is not finished.";

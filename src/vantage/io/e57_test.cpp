@@ -7,6 +7,7 @@
 #include "vantage/base/random.h"
 #include "vantage/io/sample_scans.h"
 #include "vantage/io/scan_file.h"
+#include "vantage/io/test_data.h"
 
 namespace vantage {
 namespace {
@@ -21,12 +22,6 @@ std::string error_of(const std::string& bytes) {
     return error.what();
   }
   return "";
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(E57, ChecksumOfTheStandardsExample) {

@@ -8,6 +8,7 @@
 #include "vantage/base/random.h"
 #include "vantage/io/npy.h"
 #include "vantage/io/octomap.h"
+#include "vantage/io/test_data.h"
 #include "vantage/io/vti.h"
 
 namespace vantage {
@@ -22,12 +23,6 @@ std::string error_of(Call&& call) {
     return error.what();
   }
   return "";
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 std::string small_vti() {

@@ -41,4 +41,11 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+/// The text with the first `from` exchanged, which must be there.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
 }  // namespace vantage

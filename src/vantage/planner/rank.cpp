@@ -10,9 +10,9 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kRays = 4000;  // Of a look at a place (2D: a quarter).
-constexpr double kOpen = 0.05;       // A boundary that opens with less is no surface that could be registered, nor much to see.
-constexpr double kFaint = 0.02;      // What is shown with less counts as hidden.
+constexpr std::int64_t kRays = 4000;  // Of a look at a place (2D: a quarter).
+constexpr double kOpen = 0.05;        // A boundary that opens with less is no surface that could be registered, nor much to see.
+constexpr double kFaint = 0.02;       // What is shown with less counts as hidden.
 constexpr std::size_t kNever = ~std::size_t{0};
 
 /// e^-x for a small x >= 0, by + * / alone.
@@ -116,7 +116,7 @@ template <int Dim>
 std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, const RankRequest<Dim>& request) const {
   const Grid<Dim>& grid = view.window();
   const Preview<Dim> preview(view, opening_.openness(), opacity_, max_range_);
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(kRays >> (2 * (3 - Dim)), seed_ * 1000003 + visited_.size());
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(kRays), seed_ * 1000003 + visited_.size());
   Field<Dim> left = weight_.values.empty() ? Field<Dim>(grid, 1.0F) : weight_;
   const auto take = [&](const Vec<Dim>& place) { preview.take(place, left); };
   for (const Vec<Dim>& place : request.planned) take(place);
@@ -166,7 +166,7 @@ template <int Dim>
 auto Planner<Dim>::first_of_best_pair(const BeliefView<Dim>& view, std::span<const Scored> scored) const -> const Scored& {
   const Grid<Dim>& grid = view.window();
   const Preview<Dim> preview(view, opening_.openness(), opacity_, max_range_);
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(kRays >> (2 * (3 - Dim)), seed_ * 1000003 + visited_.size());
+  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(kRays), seed_ * 1000003 + visited_.size());
   const std::size_t count = std::min(scored.size(), static_cast<std::size_t>(options_.look_ahead));
   std::size_t first = 0;
   double most = -1.0;
@@ -185,11 +185,10 @@ auto Planner<Dim>::first_of_best_pair(const BeliefView<Dim>& view, std::span<con
   return scored[first];
 }
 
-#define VANTAGE_INSTANTIATE(D) template auto Planner<D>::first_of_best_pair(const BeliefView<D>&, std::span<const Scored>) const -> const Scored&;
+#define VANTAGE_INSTANTIATE(D)                                                                              \
+  template std::vector<RankedPlace<D>> Planner<D>::rank(const BeliefView<D>&, const RankRequest<D>&) const; \
+  template auto Planner<D>::first_of_best_pair(const BeliefView<D>&, std::span<const Scored>) const -> const Scored&;
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
-
-template std::vector<RankedPlace<2>> Planner<2>::rank(const BeliefView<2>&, const RankRequest<2>&) const;
-template std::vector<RankedPlace<3>> Planner<3>::rank(const BeliefView<3>&, const RankRequest<3>&) const;
 
 }  // namespace vantage

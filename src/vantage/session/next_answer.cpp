@@ -6,20 +6,16 @@
 #include <algorithm>
 #include <array>
 
+#include "vantage/survey/tour.h"
+
 namespace vantage {
 namespace {
-
-double length_of(const auto& path) {
-  double sum = 0.0;
-  for (std::size_t k = 1; k < path.size(); ++k) sum += (path[k] - path[k - 1]).norm();
-  return sum;
-}
 
 template <int Dim>
 Json ranked_json(const RankedPlace<Dim>& place) {
   return {{"vantage", to_json<Dim>(place.position)}, {"score", place.score},          {"new_volume_m3", place.new_volume},
           {"added_volume_m3", place.added_volume},   {"new_area_m2", place.new_area}, {"overlap", place.overlap},
-          {"path_m", length_of(place.path)}};
+          {"path_m", length_of<Dim>(place.path)}};
 }
 
 /// Ranks from 1 in the order of the walk.
@@ -87,7 +83,7 @@ std::string next_csv(const NextAnswer<Dim>& answer) {
     Vec<3> at = Vec<3>::Zero();
     at.template head<Dim>() = p.position;
     out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", ++rank, at[0], at[1], at[2], p.score, p.new_volume, p.added_volume, p.new_area, p.overlap,
-                       length_of(p.path));
+                       length_of<Dim>(p.path));
   }
   return out;
 }

@@ -124,6 +124,12 @@ void settle(Scenario& scenario, const Scene<Dim>& scene) {
 
 }  // namespace
 
+Setting parse_setting(const std::string& text, const std::string& where) {
+  const std::size_t equals = text.find('=');
+  require(equals != std::string::npos && equals > 0, text + ": must be stage.option=value", where);
+  return {text.substr(0, equals), text.substr(equals + 1), where};
+}
+
 std::vector<Option> list_options(Scenario& s) {
   std::vector<Option> all;
   append(all, "scene", file_options(s.file));

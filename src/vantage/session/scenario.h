@@ -30,6 +30,9 @@ struct Setting {
   std::string where;  ///< `--eta`, `town.toml:12`; for messages.
 };
 
+/// `surface.eta=0.05`, as written at `where`; throws bad_input.
+[[nodiscard]] Setting parse_setting(const std::string& text, const std::string& where);
+
 /// Every option as `stage.name`, stage by stage (scene, explore, sensor, surface, visibility, planner), pointing into `scenario`.
 /// `scene.name` and `scene.start`, which are no numbers, are not among them.
 [[nodiscard]] std::vector<Option> list_options(Scenario& scenario);
