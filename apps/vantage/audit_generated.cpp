@@ -31,6 +31,7 @@ Json to_json(const SmallScene& scene, const Ending& e) {
           {"reason_true", e.reason_true},
           {"complete", e.complete},
           {"share", e.share},
+          {"share_widely", e.widely},
           {"bounds", {e.low, e.high}},
           {"verdict_right", e.verdict_right},
           {"repeated", e.repeated},

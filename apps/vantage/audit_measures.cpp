@@ -100,7 +100,7 @@ Json run_json(const RunScore<Dim>& score, const std::vector<double>& walls) {
   const double path = end > 0 ? score.path[end - 1] : 0.0;
   json["path_m"] = path;
   for (const Motion& motion : kMotions) json["time_s"][motion.name] = path / motion.speed + motion.per_scan * static_cast<double>(end);
-  json["false_free_m3"] = score.falsely_free;
+  json["false_free_m3"] = score.last.falsely_free;
   json["false_hidden_m3"] = score.falsely_hidden;
   json["surface_share"] = walls.empty() ? Json(nullptr) : Json(walls.back());
   json["thin_recall"] = number_or_null(score.thin_recall);
@@ -110,7 +110,8 @@ Json run_json(const RunScore<Dim>& score, const std::vector<double>& walls) {
                      {"reason", score.verdict.reason},
                      {"seen_fraction", score.verdict.seen_fraction},
                      {"seen_fraction_bounds", {score.verdict.seen_low, score.verdict.seen_high}},
-                     {"true_fraction", scans > 0 ? score.coverage.back() : 0.0}};
+                     {"true_fraction", score.last.fraction},
+                     {"true_fraction_widely", score.last.widely}};
   json["coverage"] = score.coverage;
   json["surface"] = walls;
   json["way_m"] = score.path;

@@ -58,16 +58,25 @@ Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& 
   const Grid<Dim>&fine = reference.nodes.window, &coarse = explored.window;
   require(coarse.spacing == reference.options.voxel,
           fmt::format("audit: explored lattice of {} m: must be the reference's {} m", coarse.spacing, reference.options.voxel));
-  const auto sum = [](std::size_t& total, std::size_t part) { total += part; };
-  const std::size_t seen = parallel_reduce<std::size_t>(
-      fine.size(), kChunk, 0,
+  struct Count {
+    std::size_t all = 0, narrow = 0;
+  };
+  const Count seen = parallel_reduce(
+      fine.size(), kChunk, Count{},
       [&](std::size_t begin, std::size_t end) {
-        std::size_t n = 0;
-        for (std::size_t i = begin; i < end; ++i)
-          if (reference.nodes[i].counts() && called_seen(explored, deciding_node(reference, fine.local(i)))) ++n;
+        Count n;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Truth& truth = reference.nodes[i];
+          if (!truth.counts() || !called_seen(explored, deciding_node(reference, fine.local(i)))) continue;
+          ++n.all;
+          n.narrow += truth.narrow ? 1 : 0;
+        }
         return n;
       },
-      sum);
+      [](Count& total, const Count& part) {
+        total.all += part.all;
+        total.narrow += part.narrow;
+      });
   const std::size_t wrong = parallel_reduce<std::size_t>(
       coarse.size(), kChunk, 0,
       [&](std::size_t begin, std::size_t end) {
@@ -76,8 +85,10 @@ Coverage coverage(const Reference<Dim>& reference, const Field<Dim, NodeState>& 
           n += explored[i] == NodeState::seen && hidden<Dim>(reference, coarse.local(i) + coarse.first) ? 1 : 0;
         return n;
       },
-      sum);
-  return {static_cast<double>(seen) / static_cast<double>(reference.counted), static_cast<double>(wrong) * reference.node_volume() * (1 << Dim)};
+      [](std::size_t& total, std::size_t part) { total += part; });
+  const auto share = [](std::size_t part, std::size_t all) { return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : 1.0; };
+  return {share(seen.all, reference.counted), share(seen.all - seen.narrow, reference.counted - reference.narrow),
+          static_cast<double>(wrong) * reference.node_volume() * (1 << Dim)};
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@ namespace vantage {
 /// How an explored map compares with the truth.
 struct Coverage {
   double fraction = 0.0;      ///< Of the reference set that is called seen [1].
+  double widely = 0.0;        ///< The same without what shows only through something as narrow as the spacing; 1 if there is nothing else [1].
   double falsely_free = 0.0;  ///< Called seen although no reachable place sees it: inside an obstacle or shut in [m^Dim].
 };
 

@@ -71,6 +71,26 @@ TYPED_TEST(CoverageOf, PartOfTheMapCoversItsShare) {
   EXPECT_GT(expected, 0U);
 }
 
+/// A map that lacks nothing but what shows through something narrow lacks nothing widely; with that, nothing at all.
+TYPED_TEST(CoverageOf, WhatShowsThroughSlitsIsCountedApart) {
+  constexpr int Dim = TypeParam::value;
+  Explored<Dim> e;
+  std::size_t narrow = 0;
+  for (std::size_t i = 0; i < e.reference.nodes.values.size(); ++i) {
+    Truth& node = e.reference.nodes[i];
+    node.narrow = node.counts() && e.reference.nodes.window.position(i)[1] > 3.9;
+    narrow += node.narrow ? 1 : 0;
+  }
+  e.reference.narrow = narrow;
+  e.see([](const Vec<Dim>& p) { return p[1] < 3.9; });
+  const Coverage half = coverage(e.reference, e.map);
+  EXPECT_EQ(half.widely, 1.0);
+  EXPECT_LT(half.fraction, 0.7);
+  e.see([](const Vec<Dim>&) { return true; });
+  EXPECT_EQ(coverage(e.reference, e.map).widely, 1.0);
+  EXPECT_EQ(coverage(e.reference, e.map).fraction, 1.0);
+}
+
 TYPED_TEST(CoverageOf, SeenBehindAWallIsFalselyFree) {
   constexpr int Dim = TypeParam::value;
   Explored<Dim> e;

@@ -136,9 +136,10 @@ Ending play_to_end(const Scene<Dim>& scene, const TrialOptions& options, Observe
     ending.scans = static_cast<std::int64_t>(explorer.steps().size());
     ending.ended = verdict.end != StopReason::none;
     ending.reason_true = bears_out(explorer, options.explore.planner);
-    ending.verdict_right = verdict_right(verdict, now.fraction);
+    ending.verdict_right = verdict_right(verdict, now);
     ending.falsely_free = now.falsely_free;
     ending.share = now.fraction;
+    ending.widely = now.widely;
     ending.complete = verdict.complete;
     ending.low = verdict.seen_low;
     ending.high = verdict.seen_high;

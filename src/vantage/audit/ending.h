@@ -27,7 +27,7 @@ struct Ending {
   std::int64_t unsafe = 0;             ///< Pieces of the way over nodes not seen by then, or too near to the surface known by then.
   double least_clearance = kInfinity;  ///< Of the way to any surface, known or not; at most a metre [m].
   double falsely_free = 0.0;           ///< See Coverage [m^d].
-  double share = 0.0;                  ///< Of the reference set seen at the end [1].
+  double share = 0.0, widely = 0.0;    ///< Of the reference set seen at the end, and without what shows only through something narrow [1].
   bool complete = false;               ///< What the verdict said: this, ...
   double low = 0.0, high = 0.0;        ///< ... and its bounds [1],
   std::string reason;                  ///< and its sentence.

@@ -210,12 +210,34 @@ class Builder {
     return false;
   }
 
+  /// Is there a straight way from a node to a reachable one over nodes that are not close to any surface?
+  bool shows_widely(std::size_t i) const {
+    if (reference_.nodes[i].reachable) return true;
+    const Vec<Dim> place = grid().position(i);
+    const auto along = [&](const Vec<Dim>& direction) {
+      for (double t = 0.0; t <= reference_.options.range; t += 0.5 * grid().spacing) {
+        const Index<Dim> at = grid().nearest(place + t * direction);
+        if (!grid().inside(at) || reference_.nodes.at(at).close) return false;
+        if (reference_.nodes.at(at).reachable) return true;
+      }
+      return false;
+    };
+    const Vec<Dim> way = grid().position(witness_[i]) - place;
+    return along(way / std::max(way.norm(), kTouch)) || std::any_of(directions_.begin(), directions_.end(), along);
+  }
+
   void count() {
     std::vector<std::uint8_t> left_out(grid().size());
-    parallel_for(grid().size(), 4096, [&](std::size_t i) { left_out[i] = node(i).counts() && !decided(i); });
+    parallel_for(grid().size(), 64, [&](std::size_t i) { left_out[i] = node(i).counts() && !decided(i); });
     for (std::size_t i = 0; i < grid().size(); ++i)
       if (left_out[i] != 0) node(i).near = true;
-    for (const Truth& truth : reference_.nodes.values) reference_.counted += truth.counts() ? 1 : 0;
+    parallel_for(grid().size(), 64, [&](std::size_t i) { left_out[i] = node(i).counts() && !shows_widely(i); });
+    for (std::size_t i = 0; i < grid().size(); ++i)
+      if (left_out[i] != 0) node(i).narrow = true;
+    for (const Truth& truth : reference_.nodes.values) {
+      reference_.counted += truth.counts() ? 1 : 0;
+      reference_.narrow += truth.narrow ? 1 : 0;
+    }
     require(reference_.counted > 0, fmt::format("audit: nothing visible lies farther than {} m from a surface", reference_.options.voxel));
   }
 

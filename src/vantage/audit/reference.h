@@ -21,6 +21,7 @@ struct Truth {
   bool tight : 1 = false;      ///< Nearer to a surface than the clearance.
   bool close : 1 = false;      ///< Nearer to a surface than the node spacing: a step from here may be blocked.
   bool touching : 1 = false;   ///< On a surface.
+  bool narrow : 1 = false;     ///< Belongs to the reference set, but shows only through what is about as narrow as the spacing h, or narrower.
   /// Belongs to the reference set.
   [[nodiscard]] bool counts() const { return visible && !near; }
 };
@@ -42,6 +43,7 @@ struct Reference {
   ReferenceOptions options;
   Field<Dim, Truth> nodes;  ///< Over the domain, at spacing h/2: every second node is one of the runs' lattice.
   std::size_t counted = 0;  ///< Nodes of the reference set.
+  std::size_t narrow = 0;   ///< Of them those that show only through something narrow.
 
   [[nodiscard]] double node_volume() const;                                                     ///< [m^Dim]
   [[nodiscard]] double volume() const { return static_cast<double>(counted) * node_volume(); }  ///< [m^Dim]

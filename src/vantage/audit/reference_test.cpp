@@ -123,6 +123,32 @@ TYPED_TEST(ReferenceOf, TwoRoomsMatchTheDefinition) {
     expect_the_definition<Dim>(two_rooms<Dim>(gap), cube<Dim>(0.0, 8.0), place<Dim>(2.0, 2.0), coarse());
 }
 
+/// What shows through a slit of half a spacing is marked, what shows through a door of four of them is not.
+TYPED_TEST(ReferenceOf, WhatShowsThroughASlitIsNarrow) {
+  constexpr int Dim = TypeParam::value;
+  for (const bool slit : {true, false}) {
+    ReferenceOptions options = coarse();
+    options.rays = 600;
+    Mesh<Dim> mesh = two_rooms<Dim>(3.8);
+    Box<Dim> above = cube<Dim>(0.3, 7.7);
+    above.low.template head<2>() = Vec<2>(4.1, 4.2);
+    if (slit) add_side(mesh, above, 0, false);
+    const RayCaster<Dim> truth(mesh);
+    const Reference<Dim> rooms = make_reference(truth, cube<Dim>(0.0, 8.0), place<Dim>(2.0, 2.0), options);
+    std::size_t behind = 0, narrow = 0;
+    for (std::size_t i = 0; i < rooms.nodes.values.size(); ++i) {
+      const Truth node = rooms.nodes[i];
+      EXPECT_TRUE(!node.narrow || (node.counts() && !node.reachable));
+      narrow += node.narrow ? 1 : 0;
+      if (rooms.nodes.window.position(i)[0] < 5.2 || !node.counts()) continue;
+      ++behind;
+      EXPECT_EQ(node.narrow, slit) << rooms.nodes.window.position(i).transpose();
+    }
+    EXPECT_GT(behind, 10U);
+    EXPECT_EQ(rooms.narrow, narrow);
+  }
+}
+
 TYPED_TEST(ReferenceOf, PillarsMatchTheDefinition) {
   constexpr int Dim = TypeParam::value;
   for (const double range : {80.0, 1.0}) {

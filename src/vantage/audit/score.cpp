@@ -21,8 +21,9 @@ std::int64_t idle_picks(std::span<const double> coverage) {
 }
 
 template <int Dim>
-bool verdict_right(const Verdict<Dim>& verdict, double true_share) {
-  return verdict.complete == (true_share >= kDone) && verdict.seen_low <= true_share && true_share <= verdict.seen_high;
+bool verdict_right(const Verdict<Dim>& verdict, const Coverage& truth) {
+  const auto [least, most] = std::minmax(truth.fraction, truth.widely);
+  return (verdict.complete ? most >= kDone : least < kDone) && verdict.seen_low <= most && least <= verdict.seen_high;
 }
 
 template <int Dim>
@@ -39,20 +40,20 @@ RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference
     score.places.push_back(step.vantage);
     score.path.push_back((score.path.empty() ? 0.0 : score.path.back()) + step.path_length);
     score.coverage.push_back(now.fraction);
-    score.falsely_free = now.falsely_free;
+    score.last = now;
     best = std::max(best, now.fraction);
     if (limits.observer != nullptr && limits.observer->stop_requested()) throw Error(ErrorCode::interrupted, "stopped");
   }
   score.finished = explorer.finished();
   score.verdict = explorer.verdict();
-  score.verdict_right = score.finished && !score.coverage.empty() && verdict_right(score.verdict, score.coverage.back());
+  score.verdict_right = score.finished && !score.coverage.empty() && verdict_right(score.verdict, score.last);
   return score;
 }
 
 template struct RunScore<2>;
 template struct RunScore<3>;
-template bool verdict_right<2>(const Verdict<2>&, double);
-template bool verdict_right<3>(const Verdict<3>&, double);
+template bool verdict_right<2>(const Verdict<2>&, const Coverage&);
+template bool verdict_right<3>(const Verdict<3>&, const Coverage&);
 template RunScore<2> score_run<2>(Explorer<2>&, const Reference<2>&, const ScoreLimits&);
 template RunScore<3> score_run<3>(Explorer<3>&, const Reference<3>&, const ScoreLimits&);
 

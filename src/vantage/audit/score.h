@@ -2,6 +2,7 @@
 #pragma once
 #include <limits>
 
+#include "vantage/audit/coverage.h"
 #include "vantage/audit/oracle.h"
 #include "vantage/explore/explore.h"
 
@@ -14,7 +15,7 @@ struct RunScore {
   std::vector<Vec<Dim>> places;       ///< Of the scans, in their order [m].
   std::vector<double> coverage;       ///< Share of the reference set seen after each [1].
   std::vector<double> path;           ///< Way up to each [m].
-  double falsely_free = 0.0;          ///< At the end, see Coverage [m^Dim].
+  Coverage last;                      ///< After the last scan.
   double falsely_hidden = 0.0;        ///< At the end, see falsely_hidden(); only of a trial [m^Dim].
   bool finished = false;              ///< The explorer ended by itself, or at its own limit.
   Verdict<Dim> verdict;               ///< What it said at the end.
@@ -35,9 +36,10 @@ struct ScoreLimits {
 /// Scans after the first, up to the one that reaches 99 %, that added less than 0.1 % of the reference set.
 [[nodiscard]] std::int64_t idle_picks(std::span<const double> coverage);
 
-/// Was "complete" said exactly when at least 99 % were seen, and did the true share lie within the stated bounds?
+/// Was "complete" said exactly when at least 99 % were seen, and did the true share lie within the stated bounds? What shows only through something
+/// as narrow as the lattice spacing may be counted or left out.
 template <int Dim>
-[[nodiscard]] bool verdict_right(const Verdict<Dim>& verdict, double true_share);
+[[nodiscard]] bool verdict_right(const Verdict<Dim>& verdict, const Coverage& truth);
 
 /// Steps the explorer to its end or a limit and judges the map after every scan. Throws interrupted when the observer asks to stop.
 template <int Dim>

@@ -20,14 +20,19 @@ TEST(VerdictRight, NeedsTheRightWordAndTheRightBounds) {
   verdict.complete = true;
   verdict.seen_low = 0.98;
   verdict.seen_high = 0.999;
-  EXPECT_TRUE(verdict_right(verdict, 0.99));
-  EXPECT_TRUE(verdict_right(verdict, 0.995));
-  EXPECT_FALSE(verdict_right(verdict, 0.985));   // Not complete, though within the bounds.
-  EXPECT_FALSE(verdict_right(verdict, 0.9995));  // Complete, but beyond the bounds.
+  const auto right = [&](double share, double widely) { return verdict_right(verdict, {share, widely, 0.0}); };
+  EXPECT_TRUE(right(0.99, 0.99));
+  EXPECT_TRUE(right(0.995, 0.995));
+  EXPECT_TRUE(right(0.97, 0.995));      // What is missing shows through slits alone.
+  EXPECT_FALSE(right(0.985, 0.985));    // Not complete, though within the bounds.
+  EXPECT_FALSE(right(0.97, 0.985));     // Nor that.
+  EXPECT_FALSE(right(0.9995, 0.9995));  // Complete, but beyond the bounds.
   verdict.complete = false;
-  EXPECT_TRUE(verdict_right(verdict, 0.985));
-  EXPECT_FALSE(verdict_right(verdict, 0.975));
-  EXPECT_FALSE(verdict_right(verdict, 0.995));
+  EXPECT_TRUE(right(0.985, 0.985));
+  EXPECT_TRUE(right(0.985, 1.0));
+  EXPECT_FALSE(right(0.975, 0.975));
+  EXPECT_FALSE(right(0.995, 0.995));
+  EXPECT_FALSE(right(0.995, 1.0));
 }
 
 /// A run in a small scene, and what must hold of any score.
@@ -44,7 +49,8 @@ TEST(ScoreRun, FollowsTheExplorer) {
   EXPECT_TRUE(score.finished);
   for (std::size_t k = 1; k < score.coverage.size(); ++k)  // The union never forgets; only what turns out to be beside an obstacle is taken back.
     EXPECT_GE(score.coverage[k], score.coverage[k - 1] - 0.002);
-  EXPECT_EQ(score.verdict_right, verdict_right(score.verdict, score.coverage.back()));
+  EXPECT_EQ(score.verdict_right, verdict_right(score.verdict, score.last));
+  EXPECT_EQ(score.last.fraction, score.coverage.back());
   EXPECT_GT(score.coverage.back(), 0.95);
   ASSERT_EQ(score.path.size(), score.places.size());
   EXPECT_GE(score.path.back(), (score.places.back() - score.places.front()).norm() * 0.999);
