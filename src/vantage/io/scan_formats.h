@@ -22,7 +22,7 @@ namespace vantage {
 /// Throws bad_input if neither fits.
 [[nodiscard]] std::vector<MeasuredScan> parse_kitti(FileBytes file);
 
-/// ASTM E2807 (E57): every page's checksum is verified; cartesian or spherical coordinates, poses, invalid states, row and column indices.
+/// ASTM E2807 (E57): every page's checksum is verified; cartesian or spherical coordinates, poses, invalid states, row and column indices, coordinateMetadata.
 /// Throws bad_input naming `where:offset`, or `where` and the element of its XML part.
 [[nodiscard]] std::vector<MeasuredScan> parse_e57(FileBytes file);
 
