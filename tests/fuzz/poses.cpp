@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer on the reader of lists of poses.
-#include "contract.h"
 #include "vantage/session/poses.h"
+#include "contract.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return keeps_contract(data, size, [](std::string_view text) {

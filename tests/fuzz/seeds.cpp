@@ -58,29 +58,30 @@ std::string surface() {
 }
 
 std::vector<Seed> other_seeds() {
-  return {{"vti", "a.vti", field()},
-          {"npy", "a.npy", array()},
-          {"map", "plane.map", map<2>()},
-          {"map", "space.map", map<3>()},
-          {"log", "plane.log", samples::scan_log<2>()},
-          {"log", "space.log", samples::scan_log<3>()},
-          {"surface", "plane.ply", surface<2>()},
-          {"surface", "space.ply", surface<3>()},
-          {"mesh", "square.ply",
-           "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
-           "vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
-          {"image", "a.pgm", "P2 # a\n2 2\n15\n0 15 7 3\n"},
-          {"image", "b.pgm", "P5\n2 1\n255\n\x01\x7f"},
-          {"image", "a.png",
-           std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDAT\x78\x9c\x63\xf8\x0f\0\1\1\1\0\xb1\x38\xf6"
-                       "\x14\0\0\0\0IEND\xae\x42\x60\x82",
-                       67)},
-          {"poses", "places.csv", "# places\n1 2 3\n4,5,6\n"},
-          {"poses", "named.csv", "name,tx,ty,tz,qw,qx,qy,qz\na,1,2,3,1,0,0,0\nb,1,2,3,0,1,0,0\n"},
-          {"poses", "kitti.txt", "1 0 0 5 0 1 0 6 0 0 1 7\n"},
-          {"poses", "tum.txt", "0.5 1 2 3 0 0 0 1\n"},
-          {"poses", "rows.txt", "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n"},
-          {"toml", "a.toml", "[scene]\nname = \"pipes:cylinders=12\"\nstart = [0.0, 0.0, 1.5]\n[surface]\neta = 0.05 # [m]\n[explore]\nfill = true\n"}};
+  return {
+      {"vti", "a.vti", field()},
+      {"npy", "a.npy", array()},
+      {"map", "plane.map", map<2>()},
+      {"map", "space.map", map<3>()},
+      {"log", "plane.log", samples::scan_log<2>()},
+      {"log", "space.log", samples::scan_log<3>()},
+      {"surface", "plane.ply", surface<2>()},
+      {"surface", "space.ply", surface<3>()},
+      {"mesh", "square.ply",
+       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
+       "vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
+      {"image", "a.pgm", "P2 # a\n2 2\n15\n0 15 7 3\n"},
+      {"image", "b.pgm", "P5\n2 1\n255\n\x01\x7f"},
+      {"image", "a.png",
+       std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDAT\x78\x9c\x63\xf8\x0f\0\1\1\1\0\xb1\x38\xf6"
+                   "\x14\0\0\0\0IEND\xae\x42\x60\x82",
+                   67)},
+      {"poses", "places.csv", "# places\n1 2 3\n4,5,6\n"},
+      {"poses", "named.csv", "name,tx,ty,tz,qw,qx,qy,qz\na,1,2,3,1,0,0,0\nb,1,2,3,0,1,0,0\n"},
+      {"poses", "kitti.txt", "1 0 0 5 0 1 0 6 0 0 1 7\n"},
+      {"poses", "tum.txt", "0.5 1 2 3 0 0 0 1\n"},
+      {"poses", "rows.txt", "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n"},
+      {"toml", "a.toml", "[scene]\nname = \"pipes:cylinders=12\"\nstart = [0.0, 0.0, 1.5]\n[surface]\neta = 0.05 # [m]\n[explore]\nfill = true\n"}};
 }
 
 }  // namespace

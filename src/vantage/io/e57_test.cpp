@@ -137,7 +137,8 @@ TEST(E57, NoScansAndScansWithoutPoints) {
 
 TEST(E57, CoordinateMetadataNamesTheSystem) {
   const auto epsg = [](const std::string& text) {
-    const std::string file = samples::e57({samples::e57_grid_scan(), samples::e57_spherical_scan()}, 7, false, "<coordinateMetadata type=\"String\">" + text + "</coordinateMetadata>");
+    const std::string file = samples::e57({samples::e57_grid_scan(), samples::e57_spherical_scan()}, 7, false,
+                                          "<coordinateMetadata type=\"String\">" + text + "</coordinateMetadata>");
     const std::vector<MeasuredScan> scans = parse_scan_file(file, "a.e57");
     EXPECT_EQ(scans[0].epsg, scans[1].epsg);
     return scans[0].epsg;
@@ -146,7 +147,8 @@ TEST(E57, CoordinateMetadataNamesTheSystem) {
   EXPECT_EQ(epsg("<![CDATA[" + wkt + "]]>"), 25832);
   EXPECT_EQ(epsg("EPSG:31467"), 31467);
   EXPECT_EQ(epsg(" urn:ogc:def:crs:EPSG::25833\n"), 25833);
-  for (const char* none : {"", "EPSG:4326", "EPSG:", "EPSG:x", "urn:ogc:def:crs:EPSG", "GEOGCS[\"b\",AUTHORITY[\"EPSG\",\"4258\"]]", "PROJCS[", "local"})
+  for (const char* none :
+       {"", "EPSG:4326", "EPSG:", "EPSG:x", "urn:ogc:def:crs:EPSG", "GEOGCS[\"b\",AUTHORITY[\"EPSG\",\"4258\"]]", "PROJCS[", "local"})
     EXPECT_EQ(epsg(none), std::nullopt) << none;
 }
 

@@ -62,8 +62,8 @@ std::string from_percent(std::string_view uri) {
   std::string out;
   for (std::size_t i = 0; i < uri.size(); ++i) {
     unsigned value = 0;
-    const bool coded = uri[i] == '%' && i + 2 < uri.size() &&
-                       std::from_chars(uri.data() + i + 1, uri.data() + i + 3, value, 16).ptr == uri.data() + i + 3;
+    const bool coded =
+        uri[i] == '%' && i + 2 < uri.size() && std::from_chars(uri.data() + i + 1, uri.data() + i + 3, value, 16).ptr == uri.data() + i + 3;
     out += coded ? static_cast<char>(value) : uri[i];
     if (coded) i += 2;
   }

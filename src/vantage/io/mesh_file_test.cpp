@@ -202,12 +202,12 @@ TEST(MeshFile, GltfStripsFansSparseOnesAndNodes) {
     return places;
   };
   using Places = std::vector<Vec<3>>;
-  EXPECT_EQ(corners(0), (Places{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));        // The strip 1 2 3 4, its indices begin at byte 2;
-  EXPECT_EQ(corners(1), (Places{{1, 1, 0}, {0, 1, 0}, {0, 0, 1}}));        // both triangles turn the same way.
-  EXPECT_EQ(corners(2), (Places{{-1, 2, 3}, {1, 0, 3}, {-1, 0, 3}}));      // Half a turn about z, twice as large, moved.
-  EXPECT_EQ(corners(4), (Places{{6, 0, 1}, {6, 0, 0}, {5, 1, 0}}));        // The fan 0 1 2 3, whose vertex 0 is another one, moved by a matrix.
+  EXPECT_EQ(corners(0), (Places{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));    // The strip 1 2 3 4, its indices begin at byte 2;
+  EXPECT_EQ(corners(1), (Places{{1, 1, 0}, {0, 1, 0}, {0, 0, 1}}));    // both triangles turn the same way.
+  EXPECT_EQ(corners(2), (Places{{-1, 2, 3}, {1, 0, 3}, {-1, 0, 3}}));  // Half a turn about z, twice as large, moved.
+  EXPECT_EQ(corners(4), (Places{{6, 0, 1}, {6, 0, 0}, {5, 1, 0}}));    // The fan 0 1 2 3, whose vertex 0 is another one, moved by a matrix.
   EXPECT_EQ(corners(5), (Places{{6, 0, 1}, {5, 1, 0}, {6, 1, 0}}));
-  EXPECT_EQ(corners(7), (Places{{6, 1, 0}, {5, 0, 1}, {6, 0, 1}}));        // Without indices: 3 4 5.
+  EXPECT_EQ(corners(7), (Places{{6, 1, 0}, {5, 0, 1}, {6, 0, 1}}));  // Without indices: 3 4 5.
 }
 
 TEST(MeshFile, HostileGltfParts) {

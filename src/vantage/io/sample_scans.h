@@ -73,7 +73,8 @@ inline std::string pcd(const std::string& data, const Points& points, const std:
 
 /// Two lines of three rays; one came back empty, one is all zeros.
 inline std::string organised_pcd() {
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 2\nVIEWPOINT 0 0 0 1 0 0 "
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 2\nVIEWPOINT 0 "
+         "0 0 1 0 0 "
          "0\nPOINTS 6\nDATA ascii\n1 0 1\n1 1 1\nnan nan nan\n1 0 0\n0 0 0\n0 1 0\n";
 }
 
@@ -215,7 +216,8 @@ inline std::string e57_section(const E57Scan& scan, std::uint64_t begin, std::si
   return out + packets;
 }
 
-/// `most`: bytes of a stream in a packet. `shared`: every scan points to the section of the first, as no good file does. `more`: elements of the root.
+/// `most`: bytes of a stream in a packet. `shared`: every scan points to the section of the first, as no good file does. `more`: elements of the
+/// root.
 inline std::string e57(const std::vector<E57Scan>& scans, std::size_t most = 7, bool shared = false, const std::string& more = "") {
   std::string contents(48, '\0'), elements;
   for (const E57Scan& scan : scans) {
@@ -228,7 +230,8 @@ inline std::string e57(const std::vector<E57Scan>& scans, std::size_t most = 7, 
     if (!shared || contents.size() == 48) contents += e57_section(scan, begin, most);
   }
   const std::uint64_t xml = contents.size();
-  contents += "<?xml version=\"1.0\" encoding=\"UTF-8\"?><e57Root type=\"Structure\"><data3D type=\"Vector\">" + elements + "</data3D>" + more + "</e57Root>";
+  contents +=
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?><e57Root type=\"Structure\"><data3D type=\"Vector\">" + elements + "</data3D>" + more + "</e57Root>";
   return e57_pages(contents, xml, contents.size() - xml);
 }
 

@@ -124,9 +124,8 @@ inline std::string gltf() {
 
 /// Name (whose ending tells the format) and bytes of each.
 inline std::vector<std::pair<std::string, std::string>> scenes() {
-  return {{"court.json", cityjson()}, {"wall.gml", citygml()}, {"roof.obj", obj()},
-          {"square.off", off()},      {"corner.stl", stl()},   {"square.dae", dae()},  {"strip.gltf", gltf()},
-          {"strip.glb", glb()}};
+  return {{"court.json", cityjson()}, {"wall.gml", citygml()}, {"roof.obj", obj()},    {"square.off", off()},
+          {"corner.stl", stl()},      {"square.dae", dae()},   {"strip.gltf", gltf()}, {"strip.glb", glb()}};
 }
 
 }  // namespace vantage::samples

@@ -259,7 +259,8 @@ class Binner {
           const Polar& p = points_[static_cast<std::size_t>(i)];
           const double width = sin_cos(p.elevation)[1];
           ++hits;
-          astray += width * azimuth[static_cast<std::size_t>(c)].off(p.azimuth) > most || elevation[static_cast<std::size_t>(r)].off(p.elevation) > most;
+          astray +=
+              width * azimuth[static_cast<std::size_t>(c)].off(p.azimuth) > most || elevation[static_cast<std::size_t>(r)].off(p.elevation) > most;
         }
     if (static_cast<double>(astray) > kAstray * static_cast<double>(hits)) return false;
     for (int c = 0; c < order.columns; ++c)
