@@ -13,6 +13,7 @@
 #include "vantage/base/random.h"
 #include "vantage/geometry/angle.h"
 #include "vantage/geometry/ray_caster.h"
+#include "vantage/scan/confirm.h"
 #include "vantage/world/inside_solid.h"
 
 namespace vantage {
@@ -67,6 +68,7 @@ void describe(LidarOptions& o, const OptionVisitor& visit) {
   visit("outliers", o.outliers, "1", Range{0.0, 1.0}, "share of the hits put at a random shorter range");
   visit("pose_noise", o.pose_noise, "m", Range{0.0, 100.0}, "standard deviation of the place from the one it reports, along each axis");
   visit.angle("pose_noise_deg", o.pose_turn, Range{0.0, 45.0}, "standard deviation of the orientation from the one it reports, about each axis");
+  visit("confirmed", o.confirmed, "hits that no ray beside them confirms give no data: against outliers, and at the cost of wires");
   visit("seed", o.seed, "", Range{0.0, 9.0e15}, "of noise, drop-out and outliers");
 }
 
@@ -130,6 +132,7 @@ Scan<Dim> SimulatedLidar<Dim>::scan(const Vec<Dim>& vantage_point, int index) {
     const std::uint64_t stream = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(index)) << 32) + i;
     scan.ranges[i] = measure(range, impl_->options, Random(static_cast<std::uint64_t>(impl_->options.seed), stream));
   });
+  if (impl_->options.confirmed) (void)drop_unconfirmed(scan, impl_->options.range_noise);
   return scan;
 }
 

@@ -209,6 +209,22 @@ TYPED_TEST(Lidar, DropsAndDisplacesTheAskedShare) {
   EXPECT_NEAR(share([](float r) { return r < 2.999F; }), 0.8 * 0.1, 0.02);
 }
 
+TYPED_TEST(Lidar, ConfirmedHitsHoldFewStrays) {
+  constexpr int Dim = TypeParam::value;
+  LidarOptions options = coarse();
+  options.pattern.step = radians(Dim == 2 ? 0.1 : 3.0);
+  options.outliers = 0.05;
+  const auto strays = [&] {
+    SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
+    const auto ranges = lidar.scan(Vec<Dim>::Zero(), 0).ranges;
+    return static_cast<double>(std::count_if(ranges.begin(), ranges.end(), [](float r) { return r < 2.5F; })) / static_cast<double>(ranges.size());
+  };
+  const double all = strays();
+  EXPECT_NEAR(all, 0.05 * 2.5 / (Dim == 2 ? 3.4 : 3.8), 0.015);  // Of the room's mean range.
+  options.confirmed = true;
+  EXPECT_LT(strays(), (Dim == 2 ? 0.2 : 0.6) * all);
+}
+
 TYPED_TEST(Lidar, AnswersTheSameOnEveryThread) {
   constexpr int Dim = TypeParam::value;
   LidarOptions options = coarse();
