@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The short form of the fuzzers for what other modules read: damaged maps, logs, lists of poses and scenarios load or throw vantage::Error.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "vantage/exchange/publisher.h"
 #include "vantage/exchange/sealed_map.h"
 #include "vantage/exchange/test_clouds.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/mutations.h"
-#include "vantage/io/test_data.h"
 #include "vantage/session/poses.h"
 #include "vantage/session/scenario_file.h"
 #include "vantage/session/sealed_log.h"
@@ -36,9 +38,10 @@ void read_log(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 TEST(Mutated, LogsLoadOrThrowOneLine) {
-  const ScratchFolder folder;
-  expect_conforming(samples::scan_log<2>(), [&](const std::string& bytes) { read_log<2>(folder / "a", bytes); }, 311, samples::resealed_log);
-  expect_conforming(samples::scan_log<3>(), [&](const std::string& bytes) { read_log<3>(folder / "a", bytes); }, 312, samples::resealed_log);
+  const std::filesystem::path path = testing::TempDir() + "vantage-log-" + std::to_string(::getpid());
+  expect_conforming(samples::scan_log<2>(), [&](const std::string& bytes) { read_log<2>(path, bytes); }, 311, samples::resealed_log);
+  expect_conforming(samples::scan_log<3>(), [&](const std::string& bytes) { read_log<3>(path, bytes); }, 312, samples::resealed_log);
+  std::filesystem::remove(path);
 }
 
 TEST(Mutated, PosesAndScenariosLoadOrThrowOneLine) {
