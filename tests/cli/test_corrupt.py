@@ -9,7 +9,7 @@ import pytest
 TABLE = {
     # assimp: a fuzzer's find, huge counts, wrong indices, nothing at all; and odd but valid ones.
     "assimp/OutOfMemory.off": "353535235358 vertices",
-    "assimp/badArray.gltf": "mesh primitives are not an array",
+    "assimp/badArray.gltf": "meshes[0].primitives: must be an array",
     "assimp/badUint.gltf": "BoxTextured0.bin",
     "assimp/crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply": ".ply:7: property type",
     "assimp/empty.obj": "the file is empty",

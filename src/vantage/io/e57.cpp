@@ -14,6 +14,7 @@
 #include "vantage/io/scan_formats.h"
 #include "vantage/io/text.h"
 #include "vantage/io/text_scanner.h"
+#include "vantage/io/wkt.h"
 
 namespace vantage {
 namespace {
@@ -250,6 +251,9 @@ std::vector<MeasuredScan> parse_e57(FileBytes file) {
   std::uint64_t room = pages.contents().size();
   for (const pugi::xml_node node : root.child("data3D").children())
     if (node.type() == pugi::node_element) scans.push_back(parse_scan(Element(node, file.where()), pages, room));
+  // Of the whole file. Damage here costs the system, not the points.
+  const std::optional<int> epsg = crs_epsg(root.child("coordinateMetadata").text().get());
+  for (MeasuredScan& scan : scans) scan.epsg = epsg;
   return scans;
 }
 

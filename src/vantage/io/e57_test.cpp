@@ -135,5 +135,22 @@ TEST(E57, NoScansAndScansWithoutPoints) {
   EXPECT_TRUE(parse_scan_file(samples::e57({none}), "a.e57").at(0).points.empty());
 }
 
+TEST(E57, CoordinateMetadataNamesTheSystem) {
+  const auto epsg = [](const std::string& text) {
+    const std::string file = samples::e57({samples::e57_grid_scan(), samples::e57_spherical_scan()}, 7, false,
+                                          "<coordinateMetadata type=\"String\">" + text + "</coordinateMetadata>");
+    const std::vector<MeasuredScan> scans = parse_scan_file(file, "a.e57");
+    EXPECT_EQ(scans[0].epsg, scans[1].epsg);
+    return scans[0].epsg;
+  };
+  const std::string wkt = "PROJCS[\"a\",GEOGCS[\"b\",AUTHORITY[\"EPSG\",\"4258\"]],UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"25832\"]]";
+  EXPECT_EQ(epsg("<![CDATA[" + wkt + "]]>"), 25832);
+  EXPECT_EQ(epsg("EPSG:31467"), 31467);
+  EXPECT_EQ(epsg(" urn:ogc:def:crs:EPSG::25833\n"), 25833);
+  for (const char* none :
+       {"", "EPSG:4326", "EPSG:", "EPSG:x", "urn:ogc:def:crs:EPSG", "GEOGCS[\"b\",AUTHORITY[\"EPSG\",\"4258\"]]", "PROJCS[", "local"})
+    EXPECT_EQ(epsg(none), std::nullopt) << none;
+}
+
 }  // namespace
 }  // namespace vantage

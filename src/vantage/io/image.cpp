@@ -86,7 +86,10 @@ GrayImage parse_pgm(std::string_view text, const std::string& name) {
 }  // namespace
 
 GrayImage read_gray_image(const std::filesystem::path& path, std::uint8_t background) {
-  const std::string bytes = read_file(path), name = path.string();
+  return parse_gray_image(read_file(path), path.string(), background);
+}
+
+GrayImage parse_gray_image(std::string_view bytes, const std::string& name, std::uint8_t background) {
   require(!bytes.empty(), "is empty", name);
   if (bytes.starts_with("\x89PNG")) return parse_png(bytes, background, name);
   if (bytes.starts_with("P2") || bytes.starts_with("P5")) return parse_pgm(bytes, name);

@@ -20,7 +20,7 @@ struct MeshFileOptions {
 /// double where the format has them. Throws io when a file cannot be read; bad_input, naming the file, when it is not such a file, is cut short, has
 /// a vertex that is not finite, an index out of range or no triangles.
 [[nodiscard]] Mesh<3> read_mesh(const std::filesystem::path& path, const MeshFileOptions& options = {});
-/// The same of bytes; the name's ending says what they are. Of a glTF file the file itself is read, and what lies beside it.
+/// The same of bytes; the name's ending says what they are. Of a glTF file also what lies beside `path` is read.
 [[nodiscard]] Mesh<3> parse_mesh(std::string_view bytes, const std::filesystem::path& path, const MeshFileOptions& options = {});
 
 /// Whether the file's name ends like a mesh that `read_mesh` knows.

@@ -11,6 +11,7 @@
 #include "vantage/base/error.h"
 #include "vantage/base/random.h"
 #include "vantage/io/atomic_file.h"
+#include "vantage/io/sample_scenes.h"
 #include "vantage/io/test_data.h"
 
 namespace vantage {
@@ -176,7 +177,7 @@ TEST(MeshFile, GltfIsYUp) {
 TEST(MeshFile, HostileGltf) {
   const auto replaced = [](const std::string& what, const std::string& by) { return std::string(kGltf).replace(kGltf.find(what), what.size(), by); };
   const auto error = [&](const std::string& text) { return error_of([&] { (void)read_text("a.gltf", text); }); };
-  EXPECT_THAT(error(replaced("\"count\":3", "\"count\":3000000000")), HasSubstr("accessor count 3000000000 exceeds the file"));
+  EXPECT_THAT(error(replaced("\"count\":3", "\"count\":3000000000")), HasSubstr("accessors[0]: 3000000000 elements exceed bufferViews[0]"));
   EXPECT_THAT(error(replaced("\"mesh\":0,\"translation\"", "\"mesh\":0,\"children\":[0],\"translation\"")), HasSubstr("nodes contain themselves"));
   EXPECT_THAT(error(replaced("\"byteLength\":36,\"uri\"", "\"byteLength\":36,\"url\"")), testing::StartsWith("2 "));
   EXPECT_THAT(error("{}"), HasSubstr("lacks 'asset'"));
@@ -189,6 +190,55 @@ struct HostileCase {
   const char* text;
   const char* error;
 };
+
+TEST(MeshFile, GltfStripsFansSparseOnesAndNodes) {
+  const Mesh<3> mesh = read_text("a.gltf", samples::gltf()), same = read_text("a.glb", samples::glb());
+  EXPECT_EQ(mesh.vertices, same.vertices);
+  EXPECT_EQ(mesh.facets, same.facets);
+  ASSERT_EQ(mesh.facets.size(), 8U);
+  const auto corners = [&](std::size_t facet) {
+    std::vector<Vec<3>> places;
+    for (const std::uint32_t v : mesh.facets[facet]) places.emplace_back(mesh.vertices[v][0], mesh.vertices[v][2], -mesh.vertices[v][1]);  // y up.
+    return places;
+  };
+  using Places = std::vector<Vec<3>>;
+  EXPECT_EQ(corners(0), (Places{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));    // The strip 1 2 3 4, its indices begin at byte 2;
+  EXPECT_EQ(corners(1), (Places{{1, 1, 0}, {0, 1, 0}, {0, 0, 1}}));    // both triangles turn the same way.
+  EXPECT_EQ(corners(2), (Places{{-1, 2, 3}, {1, 0, 3}, {-1, 0, 3}}));  // Half a turn about z, twice as large, moved.
+  EXPECT_EQ(corners(4), (Places{{6, 0, 1}, {6, 0, 0}, {5, 1, 0}}));    // The fan 0 1 2 3, whose vertex 0 is another one, moved by a matrix.
+  EXPECT_EQ(corners(5), (Places{{6, 0, 1}, {5, 1, 0}, {6, 1, 0}}));
+  EXPECT_EQ(corners(7), (Places{{6, 1, 0}, {5, 0, 1}, {6, 0, 1}}));  // Without indices: 3 4 5.
+}
+
+TEST(MeshFile, HostileGltfParts) {
+  const auto error = [](const std::string& what, const std::string& by) {
+    return error_of([&] { (void)read_text("a.gltf", replaced(samples::gltf(), what, by)); });
+  };
+  const HostileCase cases[] = {
+      {"\"2.0\"", "\"1.0\"", "glTF 1.0: only 2.0 is read"},
+      {"\"count\":6,", "\"count\":7,", "accessors[0]: 7 elements exceed bufferViews[0]"},
+      {"\"byteOffset\":2", "\"byteOffset\":1e14", "accessors[1]: 4 elements exceed bufferViews[1]"},
+      {"\"byteOffset\":2", "\"byteOffset\":-2", "accessors[1].byteOffset = -2: must be a whole number"},
+      {"\"byteStride\":12", "\"byteStride\":0", "bufferViews[0].byteStride = 0: must be at least 12"},
+      {"\"byteLength\":84", "\"byteLength\":85", "buffers[0]: 85 bytes exceed the 84 that are there"},
+      {"\"byteOffset\":72", "\"byteOffset\":73", "bufferViews[1]: 12 bytes from 73 exceed its buffer"},
+      {"\"componentType\":5126", "\"componentType\":5124", "componentType = 5124"},
+      {"\"type\":\"VEC3\"", "\"type\":\"VEC2\"", "accessors[0].type: must be VEC3"},
+      {"\"mode\":6", "\"mode\":\"6\"", "meshes[1]"},
+      {"base64,AAAA", "base64,AA*A", "buffers[0].uri: must be base64"},
+      {"\"data:", "\"http:", "no such file beside it"},
+      {"\"nodes\":[0]", "\"nodes\":[7]", "nodes[7] is not there: 3 are"},
+      {"\"children\":[1,2]", "\"children\":[1,1]", "nodes[1] has two parents"},
+      {"\"rotation\":[0,0,1,0]", "\"rotation\":[0,0,1]", "nodes[1].rotation: must be 4 numbers"},
+      {"\"scale\":[2,2,2]", "\"scale\":[2,2,1e999]", "a.gltf"},
+      {"\"asset\":{\"version\":\"2.0\"}", "\"asset\":[]", "lacks 'version'"},
+      {"{\"asset\"", "{\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"asset\"", "KHR_draco_mesh_compression: is not read"},
+  };
+  for (const HostileCase& c : cases) EXPECT_THAT(error(c.name, c.text), HasSubstr(c.error)) << c.name;
+  const std::string glb = samples::glb();
+  for (std::size_t n = 0; n < glb.size(); ++n)
+    EXPECT_THAT(error_of([&] { (void)read_text("a.glb", glb.substr(0, n)); }), testing::StartsWith("2 ")) << n;
+}
 
 TEST(MeshFile, HostileText) {
   const HostileCase cases[] = {
@@ -271,7 +321,7 @@ TEST(MeshFile, MalformedFilesOfOtherProjects) {
   VANTAGE_NEEDS_DATA("corrupt");
   const KnownFile files[] = {
       {"assimp/OutOfMemory.off", {}, "353535235358 vertices and 6 faces are more than the file's 309 bytes can hold"},
-      {"assimp/badArray.gltf", {}, "mesh primitives are not an array"},
+      {"assimp/badArray.gltf", {}, "meshes[0].primitives: must be an array"},
       {"assimp/badUint.gltf", {}, "BoxTextured0.bin"},
       {"assimp/box_longline.obj", 944},
       {"assimp/box_nested_animation_4286.dae", 12},  // The count that is too small is not needed.

@@ -2,62 +2,22 @@
 // Mutated files of every format load or throw vantage::Error. VANTAGE_MUTATIONS=2000 makes so many of each file instead of 300.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "vantage/base/error.h"
 #include "vantage/base/random.h"
+#include "vantage/io/image.h"
 #include "vantage/io/mesh_file.h"
+#include "vantage/io/mutations.h"
+#include "vantage/io/npy.h"
+#include "vantage/io/patch_file.h"
 #include "vantage/io/sample_scans.h"
 #include "vantage/io/sample_scenes.h"
 #include "vantage/io/scan_file.h"
+#include "vantage/io/vti.h"
 
 namespace vantage {
 namespace {
 
 constexpr std::size_t kMostPointsPerByte = 64;  // Of what a file of so few bytes may give: the packed formats stay below.
-
-void flip_bit(std::string& bytes, Random& random) {
-  const std::size_t at = random.below(bytes.size());
-  bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
-}
-
-void set_byte(std::string& bytes, Random& random) {
-  constexpr char kBytes[] = {'\0', '\1', '\x7f', '\x80', '\xff', '0', '9', '-', '.', 'e', ' ', '\n'};
-  bytes[random.below(bytes.size())] = kBytes[random.below(std::size(kBytes))];
-}
-
-/// What a size or a count might say.
-void set_number(std::string& bytes, Random& random) {
-  constexpr std::uint64_t kNumbers[] = {0, 1, 2, 0x7f, 0xff, 0xffff, 0x7fffffff, 0xffffffff, 0x7fffffffffffffff, 0xffffffffffffffff};
-  std::string number;
-  put(number, kNumbers[random.below(std::size(kNumbers))]);
-  const std::size_t width = std::size_t{1} << random.below(4);
-  const std::size_t at = random.below(bytes.size());
-  bytes.replace(at, std::min(width, bytes.size() - at), number.substr(0, width));
-}
-
-/// A number of a text header.
-void set_digits(std::string& bytes, Random& random) {
-  constexpr const char* kWords[] = {"0", "-1", "nan", "1e999", "4294967296", "18446744073709551615", "99999999999999999999", ""};
-  const std::size_t from = bytes.find_first_of("0123456789", random.below(bytes.size()));
-  if (from == std::string::npos) return;
-  bytes.replace(from, std::min(bytes.find_first_not_of("0123456789", from), bytes.size()) - from, kWords[random.below(std::size(kWords))]);
-}
-
-void cut_end(std::string& bytes, Random& random) { bytes.resize(random.below(bytes.size())); }
-
-void move_part(std::string& bytes, Random& random) {
-  const std::string part = bytes.substr(random.below(bytes.size()), 1 + random.below(64));
-  bytes.insert(random.below(bytes.size()), part);
-}
-
-std::string mutated(std::string bytes, Random& random) {
-  constexpr void (*kMutations[])(std::string&, Random&) = {flip_bit, set_byte, set_number, set_digits, cut_end, move_part};
-  const std::uint64_t changes = 1 + random.below(3);
-  for (std::uint64_t k = 0; k < changes && !bytes.empty(); ++k) kMutations[random.below(std::size(kMutations))](bytes, random);
-  return bytes;
-}
 
 /// Loads or throws Error, with one line; returns whether it loaded.
 bool conforms(const std::string& bytes, const std::string& name) {
@@ -80,8 +40,7 @@ bool conforms(const std::string& bytes, const std::string& name) {
 }
 
 TEST(MutatedScans, LoadOrThrowOneLine) {
-  const char* asked = std::getenv("VANTAGE_MUTATIONS");
-  const int count = asked ? std::atoi(asked) : 300;
+  const int count = mutation_count();
   int file = 0;
   for (const auto& [name, bytes] : samples::all()) {
     ASSERT_TRUE(conforms(bytes, name)) << name;
@@ -114,8 +73,7 @@ bool scene_conforms(const std::string& bytes, const std::string& name) {
 }
 
 TEST(MutatedScenes, LoadOrThrowOneLine) {
-  const char* asked = std::getenv("VANTAGE_MUTATIONS");
-  const int count = asked ? std::atoi(asked) : 300;
+  const int count = mutation_count();
   int file = 100;
   for (const auto& [name, bytes] : samples::scenes()) {
     ASSERT_TRUE(scene_conforms(bytes, name)) << name;
@@ -124,6 +82,26 @@ TEST(MutatedScenes, LoadOrThrowOneLine) {
     for (int i = 0; i < count; ++i) ASSERT_NO_THROW(loaded += scene_conforms(mutated(bytes, random), name)) << name << ", mutation " << i;
     EXPECT_LT(loaded, count) << name << ": no mutation was noticed";
   }
+}
+
+std::string small_field() {
+  const Grid<3> window{0.5, {-4, 2, 0}, {3, 4, 2}};
+  const std::vector<float> psi(window.size(), 0.25F);
+  const ImageArray arrays[] = {{"psi", std::span<const float>(psi)}};
+  return image_as_vti<3>(window, arrays);
+}
+
+TEST(MutatedOthers, LoadOrThrowOneLine) {
+  const Patch<3> patches[] = {point_patch<3>({1, 2, 3}), segment_patch<3>({0, 0, 0}, {1, 0, 0})};
+  const std::int64_t nodes[] = {3, 2};
+  using Reader = std::function<void(const std::string&)>;
+  const std::pair<std::string, Reader> readers[] = {
+      {small_field(), [](const std::string& bytes) { (void)parse_vti(bytes, "a.vti"); }},
+      {array_as_npy({"psi", std::vector<float>(6, 0.5F)}, nodes), [](const std::string& bytes) { (void)describe_npy(bytes, "a.npy"); }},
+      {patches_as_ply<3>(patches), [](const std::string& bytes) { (void)parse_patches(bytes, "a.ply"); }},
+      {"P2 # a\n2 2\n15\n0 15 7 3\n", [](const std::string& bytes) { (void)parse_gray_image(bytes, "a.pgm", 205); }}};
+  std::uint64_t seed = 200;
+  for (const auto& [bytes, read] : readers) expect_conforming(bytes, read, ++seed);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "vantage/base/error.h"
 #include "vantage/io/bytes.h"
@@ -29,6 +30,7 @@ struct PcdHeader {
   std::uint64_t points = 0;
   std::string data;
   std::size_t data_offset = 0, lines = 0;
+  std::uint64_t width = 0, height = 0;
   std::size_t columns = 0, record = 0;
   std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< Place, then the quaternion w x y z.
 
@@ -79,7 +81,9 @@ void parse_line(std::string_view key, std::string_view rest, PcdHeader& header, 
     header.data = take_word(rest);
   } else if (key == "VIEWPOINT") {
     parse_viewpoint(rest, header, where);
-  } else if (key != "VERSION" && key != "WIDTH" && key != "HEIGHT") {
+  } else if (key == "WIDTH" || key == "HEIGHT") {
+    (key == "WIDTH" ? header.width : header.height) = to_number<std::uint64_t>(take_word(rest)).value_or(0);
+  } else if (key != "VERSION") {
     fail(fmt::format("{}: not a header line of PCD", printable(key)), where, line);
   }
 }
@@ -216,6 +220,15 @@ void take_viewpoint(const PcdHeader& header, PointCloud& cloud, std::string_view
   cloud.orientation = turn.normalized();
 }
 
+/// The points are a table of lines, if the header says so and they are as many.
+void take_table(const PcdHeader& header, PointCloud& cloud) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (header.height < 2 || header.width < 2 || header.points > kMost) return;
+  if (header.width > header.points || header.points % header.width != 0 || header.points / header.width != header.height) return;
+  cloud.width = static_cast<std::int64_t>(header.width);
+  cloud.height = static_cast<std::int64_t>(header.height);
+}
+
 }  // namespace
 
 PointCloud parse_pcd(std::string_view bytes, std::string_view where) {
@@ -224,6 +237,7 @@ PointCloud parse_pcd(std::string_view bytes, std::string_view where) {
   cloud.format = "PCD, " + header.data;
   cloud.dim = header.find("z") == nullptr ? 2 : 3;
   take_viewpoint(header, cloud, where);
+  take_table(header, cloud);
   if (header.data == "ascii") {
     cloud.points = read_ascii(bytes, header, where);
   } else if (header.data == "binary") {

@@ -16,10 +16,11 @@ namespace vantage {
 /// Points as a file has them, not-finite ones included; a plane file (no z column, or marked so) has dim 2 and z = 0.
 struct PointCloud {
   int dim = 3;
-  std::vector<Vec<3>> points;      ///< (N, 3) [file's unit]
-  std::int64_t not_finite = 0;     ///< How many have a NaN or an infinity.
-  std::string format;              ///< "PLY, ascii", "PCD, binary", "text" …
-  std::optional<Vec<3>> position;  ///< Of the sensor in the points' frame, where a PCD gives a VIEWPOINT other than the default.
+  std::vector<Vec<3>> points;          ///< (N, 3) [file's unit]
+  std::int64_t not_finite = 0;         ///< How many have a NaN or an infinity.
+  std::string format;                  ///< "PLY, ascii", "PCD, binary", "text" …
+  std::int64_t width = 0, height = 0;  ///< Of an organised PCD: lines of `width` points, one below the other; else 0.
+  std::optional<Vec<3>> position;      ///< Of the sensor in the points' frame, where a PCD gives a VIEWPOINT other than the default.
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< World from sensor.
 };
 

@@ -71,6 +71,13 @@ inline std::string pcd(const std::string& data, const Points& points, const std:
   return out + packed;
 }
 
+/// Two lines of three rays; one came back empty, one is all zeros.
+inline std::string organised_pcd() {
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 2\nVIEWPOINT 0 "
+         "0 0 1 0 0 "
+         "0\nPOINTS 6\nDATA ascii\n1 0 1\n1 1 1\nnan nan nan\n1 0 0\n0 0 0\n0 1 0\n";
+}
+
 /// LAS 1.`minor`: header, an empty gap, records of the point format's size, coordinates scaled by 1/1024 from `origin`.
 inline std::string las(int minor, int format, const Points& points, const Vec<3>& origin = Vec<3>::Zero()) {
   constexpr std::size_t kRecord[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
@@ -209,8 +216,9 @@ inline std::string e57_section(const E57Scan& scan, std::uint64_t begin, std::si
   return out + packets;
 }
 
-/// `most`: bytes of a stream in a packet. `shared`: every scan points to the section of the first, as no good file does.
-inline std::string e57(const std::vector<E57Scan>& scans, std::size_t most = 7, bool shared = false) {
+/// `most`: bytes of a stream in a packet. `shared`: every scan points to the section of the first, as no good file does. `more`: elements of the
+/// root.
+inline std::string e57(const std::vector<E57Scan>& scans, std::size_t most = 7, bool shared = false, const std::string& more = "") {
   std::string contents(48, '\0'), elements;
   for (const E57Scan& scan : scans) {
     contents.resize((contents.size() + 3) / 4 * 4, '\0');
@@ -222,7 +230,8 @@ inline std::string e57(const std::vector<E57Scan>& scans, std::size_t most = 7, 
     if (!shared || contents.size() == 48) contents += e57_section(scan, begin, most);
   }
   const std::uint64_t xml = contents.size();
-  contents += "<?xml version=\"1.0\" encoding=\"UTF-8\"?><e57Root type=\"Structure\"><data3D type=\"Vector\">" + elements + "</data3D></e57Root>";
+  contents +=
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?><e57Root type=\"Structure\"><data3D type=\"Vector\">" + elements + "</data3D>" + more + "</e57Root>";
   return e57_pages(contents, xml, contents.size() - xml);
 }
 
@@ -273,6 +282,7 @@ inline std::vector<std::pair<std::string, std::string>> all() {
           {"ascii.pcd", pcd("ascii", points, "1 2 3 0 0 0 1")},
           {"binary.pcd", pcd("binary", points)},
           {"compressed.pcd", pcd("binary_compressed", points)},
+          {"organised.pcd", organised_pcd()},
           {"plain.xyz", points_as_xyz<3>(points)},
           {"named.csv", "time,Z,X,Y\n0,3,1,2\n1,3,4,5\n"},
           {"scan.ptx", ptx()},
@@ -280,7 +290,7 @@ inline std::vector<std::pair<std::string, std::string>> all() {
           {"three.bin", kitti(3, points)},
           {"a.las", las(2, 3, points)},
           {"b.las", las(4, 7, points)},
-          {"a.e57", e57({e57_grid_scan(), e57_spherical_scan()})},
+          {"a.e57", e57({e57_grid_scan(), e57_spherical_scan()}, 7, false, "<coordinateMetadata type=\"String\">EPSG:25832</coordinateMetadata>")},
           {"tree.bt", octomap()}};
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "vantage/io/bytes.h"
 
 /// Tiny scene files of the formats with structure, for tests, mutations and seeds of the fuzzers.
 namespace vantage::samples {
@@ -78,10 +82,50 @@ inline std::string dae() {
 )";
 }
 
+/// Six corners as floats, then six indices: a strip of two triangles and a fan; a child that is turned, and one moved by a matrix.
+inline std::string gltf_buffer() {
+  std::string out;
+  for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 1.F, 1.F, 0.F, 0.F, 0.F, 1.F, 1.F, 0.F, 1.F}) put(out, v);
+  for (const std::uint16_t i : {0, 1, 2, 3, 4, 5}) put(out, i);
+  return out;
+}
+inline std::string gltf(const std::string& buffer) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"children":[1,2]},
+{"mesh":0,"rotation":[0,0,1,0],"translation":[1,2,3],"scale":[2,2,2]},{"mesh":1,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":5}]},{"primitives":[{"attributes":{"POSITION":2},"mode":6},
+{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":84)" +
+         buffer + R"(}],"bufferViews":[{"buffer":0,"byteLength":72,"byteStride":12},{"buffer":0,"byteOffset":72,"byteLength":12}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"},{"bufferView":1,"byteOffset":2,"componentType":5123,"count":4,"type":"SCALAR"},
+{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0,
+"byteOffset":60}}}]})";
+}
+inline std::string glb() {
+  std::string json = gltf(""), binary = gltf_buffer(), out = "glTF";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  put<std::uint32_t>(out, 2);
+  put(out, static_cast<std::uint32_t>(28 + json.size() + binary.size()));
+  put(out, static_cast<std::uint32_t>(json.size()));
+  out += "JSON" + json;
+  put(out, static_cast<std::uint32_t>(binary.size()));
+  return out + std::string("BIN\0", 4) + binary;
+}
+/// The buffer as text: all floats are 0 or 1, all indices small.
+inline std::string gltf() {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::string bytes = gltf_buffer();
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | static_cast<unsigned char>(bytes[i + k]);
+    for (const int shift : {18, 12, 6, 0}) text += kDigits[bits >> shift & 63];
+  }
+  return gltf(R"(,"uri":"data:application/octet-stream;base64,)" + text + "\"");
+}
+
 /// Name (whose ending tells the format) and bytes of each.
 inline std::vector<std::pair<std::string, std::string>> scenes() {
-  return {{"court.json", cityjson()}, {"wall.gml", citygml()}, {"roof.obj", obj()},
-          {"square.off", off()},      {"corner.stl", stl()},   {"square.dae", dae()}};
+  return {{"court.json", cityjson()}, {"wall.gml", citygml()}, {"roof.obj", obj()},    {"square.off", off()},
+          {"corner.stl", stl()},      {"square.dae", dae()},   {"strip.gltf", gltf()}, {"strip.glb", glb()}};
 }
 
 }  // namespace vantage::samples

@@ -51,6 +51,26 @@ std::optional<std::string_view> format_of_name(std::string_view name) {
   return std::nullopt;
 }
 
+/// An organised cloud becomes a table of rays: a place without a point, which is not a number or all zeros, is a ray without return. (Whether it
+/// was fired the file does not tell.)
+void keep_rays(const PointCloud& cloud, MeasuredScan& scan) {
+  RayTable rays{static_cast<std::int32_t>(cloud.width), static_cast<std::int32_t>(cloud.height), {}, true};
+  rays.point.assign(scan.points.size(), RayTable::kNoReturn);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const Vec<3> p = scan.points[i];
+    const bool finite = p.allFinite();
+    scan.not_finite += !finite;
+    if (!finite || p.isZero(0.0)) continue;
+    const auto line = i / static_cast<std::size_t>(cloud.width), column = i % static_cast<std::size_t>(cloud.width);
+    rays.point[column * static_cast<std::size_t>(cloud.height) + line] = static_cast<std::int32_t>(kept);
+    scan.points[kept++] = p;
+  }
+  scan.points.resize(kept);
+  scan.rays = std::move(rays);
+  scan.format += fmt::format(", {} x {} rays", cloud.width, cloud.height);
+}
+
 std::vector<MeasuredScan> scan_of_cloud(PointCloud cloud) {
   MeasuredScan scan;
   scan.format = std::move(cloud.format);
@@ -58,6 +78,7 @@ std::vector<MeasuredScan> scan_of_cloud(PointCloud cloud) {
   scan.points = std::move(cloud.points);
   scan.position = cloud.position;
   scan.orientation = cloud.orientation;
+  if (cloud.height > 1) keep_rays(cloud, scan);
   return {std::move(scan)};
 }
 

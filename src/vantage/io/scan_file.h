@@ -18,6 +18,7 @@ struct RayTable {
   static constexpr std::int32_t kNoData = -2;    ///< Not fired, or invalid.
   std::int32_t columns = 0, rows = 0;
   std::vector<std::int32_t> point;  ///< Per ray the index of its point, kNoReturn or kNoData, rows fastest, (columns * rows).
+  bool assumed = false;             ///< The file does not tell rays without return from those not fired: all are kNoReturn.
 };
 
 /// One scan as a file has it. A file may hold several.
@@ -30,7 +31,7 @@ struct MeasuredScan {
   std::optional<Vec<3>> position;  ///< Of the scanner in the same frame; none: the file does not say [file's unit].
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< World from sensor.
   std::optional<RayTable> rays;                                     ///< If the file keeps the order of the rays.
-  std::optional<int> epsg;                                          ///< Code of a projected coordinate system, where a LAS file names one.
+  std::optional<int> epsg;                                          ///< Code of a projected coordinate system, where a LAS or E57 file names one.
 };
 
 /// All scans of a point cloud file of any format of docs/12-files.md; an E57 may hold none. Throws io, or bad_input naming `FILE:OFFSET` (text:

@@ -6,6 +6,7 @@
 #include "vantage/base/error.h"
 #include "vantage/io/octomap.h"
 #include "vantage/io/sample_scans.h"
+#include "vantage/io/test_data.h"
 
 namespace vantage {
 namespace {
@@ -186,6 +187,27 @@ TEST(ScanFile, WrongOctoMapFilesAreRefused) {
   EXPECT_NE(error_of(replaced(good, "id OcTree", "id Tree"), "a.bt").find("id Tree"), std::string::npos);
   EXPECT_NE(error_of(head + std::string(64, '\x03'), "a.bt").find("deeper than 16"), std::string::npos);
   EXPECT_NE(error_of(replaced(good, "binary file", "file"), "a.ot").find("not an OctoMap binary file"), std::string::npos);
+}
+
+TEST(ScanFile, AnOrganisedPcdKeepsItsRays) {
+  const std::string file = samples::organised_pcd();  // Two lines: (1 0 1) (1 1 1) nan, and (1 0 0) zeros (0 1 0).
+  const MeasuredScan scan = parse_scan_file(file, "a.pcd").at(0);
+  EXPECT_EQ(scan.format, "PCD, ascii, 3 x 2 rays");
+  EXPECT_EQ(scan.points, (std::vector<Vec<3>>{{1, 0, 1}, {1, 1, 1}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(scan.not_finite, 1);
+  ASSERT_TRUE(scan.rays.has_value());
+  EXPECT_TRUE(scan.rays->assumed);
+  EXPECT_EQ(scan.rays->columns, 3);
+  EXPECT_EQ(scan.rays->rows, 2);
+  EXPECT_EQ(scan.rays->point, (std::vector<std::int32_t>{0, 2, 1, -1, -1, 3}));
+  // A header that does not fit its points means nothing, and one line is a list.
+  for (const auto& [width, height] : {std::pair("6", "1"), {"1", "6"}, {"3", "3"}, {"x", "2"}, {"18446744073709551615", "2"}, {"0", "0"}}) {
+    const std::string other = replaced(replaced(file, "WIDTH 3", "WIDTH " + std::string(width)), "HEIGHT 2", "HEIGHT " + std::string(height));
+    const MeasuredScan list = parse_scan_file(other, "a.pcd").at(0);
+    EXPECT_FALSE(list.rays.has_value()) << width;
+    EXPECT_EQ(list.points.size(), 5U);
+    EXPECT_EQ(list.format, "PCD, ascii");
+  }
 }
 
 }  // namespace

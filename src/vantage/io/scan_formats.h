@@ -22,8 +22,8 @@ namespace vantage {
 /// Throws bad_input if neither fits.
 [[nodiscard]] std::vector<MeasuredScan> parse_kitti(FileBytes file);
 
-/// ASTM E2807 (E57): every page's checksum is verified; cartesian or spherical coordinates, poses, invalid states, row and column indices.
-/// Throws bad_input naming `where:offset`, or `where` and the element of its XML part.
+/// ASTM E2807 (E57): every page's checksum is verified; cartesian or spherical coordinates, poses, invalid states, row and column indices,
+/// coordinateMetadata. Throws bad_input naming `where:offset`, or `where` and the element of its XML part.
 [[nodiscard]] std::vector<MeasuredScan> parse_e57(FileBytes file);
 
 /// Centres of the occupied leaves of an OctoMap file (octomap.h).

@@ -19,6 +19,9 @@ constexpr double kMetricReach = 4.0;  // The same where points are sparse in ang
 constexpr int kFarthest = 40;         // No gap is looked across farther than this [rays].
 constexpr double kWideGap = 15;       // Azimuths without hits that lie outside of the field of view [deg].
 constexpr int kFewHits[] = {1, 3};    // An elevation with fewer does not widen the field of view; in the plane there is one only.
+constexpr double kOffLine = 4.0;      // From the middle of its column or row a hit of an organised scan may lie [rays],
+constexpr double kOffAngle = 3.0;     // or so far, if that is more [deg];
+constexpr double kAstray = 0.1;       // of so large a share of hits that lie farther off, the columns and rows say nothing.
 constexpr float kEmpty = -1.0F;       // While it is not decided.
 
 /// Direction and distance of a point.
@@ -184,10 +187,10 @@ class Binner {
   void run(const std::optional<RayOrder>& order) {
     report_.hit = std::count_if(ranges_.begin(), ranges_.end(), [](float r) { return r != kEmpty; });
     find_view();
-    if (order) take_order(*order);
+    report_.ordered = order && take_order(*order);
     close_gaps();
     for (int c = 0; c < image_.columns; ++c)
-      for (int r = 0; r < image_.rows; ++r) decide(c, r, order.has_value());
+      for (int r = 0; r < image_.rows; ++r) decide(c, r, report_.ordered);
   }
 
   [[nodiscard]] const Image<Dim>& image() const { return image_; }
@@ -218,16 +221,25 @@ class Binner {
     }
   }
 
-  /// The rays that came back empty: where the hits of their column and of their row lie.
-  void take_order(const RayOrder& order) {
-    struct Mean {
-      double sine = 0.0, cosine = 0.0;
-      int count = 0;
-      void add(double angle) {
-        const auto [s, c] = sin_cos(angle);
-        sine += s, cosine += c, ++count;
-      }
-    };
+  /// Of angles.
+  struct Mean {
+    double sine = 0.0, cosine = 0.0;
+    int count = 0;
+    void add(double angle) {
+      const auto [s, c] = sin_cos(angle);
+      sine += s, cosine += c, ++count;
+    }
+    [[nodiscard]] double angle() const { return angle_of(sine, cosine); }
+    /// How far an angle is off [rad].
+    [[nodiscard]] double off(double angle) const {
+      const auto [s, c] = sin_cos(angle - this->angle());
+      return std::abs(angle_of(s, c));
+    }
+  };
+
+  /// The rays that came back empty: where the hits of their column and of their row lie. False, and nothing taken, where hits do not lie there: the
+  /// lines are not those of a scanner, or go over the zenith, or the scanner stood at a slant that the pose does not tell.
+  bool take_order(const RayOrder& order) {
     std::vector<Mean> azimuth(static_cast<std::size_t>(order.columns)), elevation(static_cast<std::size_t>(order.rows));
     const auto at = [&](int c, int r) {
       return order.point[static_cast<std::size_t>(c) * static_cast<std::size_t>(order.rows) + static_cast<std::size_t>(r)];
@@ -239,14 +251,27 @@ class Binner {
           azimuth[static_cast<std::size_t>(c)].add(points_[static_cast<std::size_t>(i)].azimuth);
           elevation[static_cast<std::size_t>(r)].add(points_[static_cast<std::size_t>(i)].elevation);
         }
+    std::int64_t hits = 0, astray = 0;
+    const double most = std::max(kOffLine * image_.pattern.step, radians(kOffAngle));
+    for (int c = 0; c < order.columns; ++c)
+      for (int r = 0; r < order.rows; ++r)
+        if (const std::int32_t i = at(c, r); valid(i)) {
+          const Polar& p = points_[static_cast<std::size_t>(i)];
+          const double width = sin_cos(p.elevation)[1];
+          ++hits;
+          astray +=
+              width * azimuth[static_cast<std::size_t>(c)].off(p.azimuth) > most || elevation[static_cast<std::size_t>(r)].off(p.elevation) > most;
+        }
+    if (static_cast<double>(astray) > kAstray * static_cast<double>(hits)) return false;
     for (int c = 0; c < order.columns; ++c)
       for (int r = 0; r < order.rows; ++r) {
         const Mean &a = azimuth[static_cast<std::size_t>(c)], &e = elevation[static_cast<std::size_t>(r)];
         if (at(c, r) != -1 || a.count == 0 || e.count == 0) continue;
-        const Polar ray{angle_of(a.sine, a.cosine), angle_of(e.sine, e.cosine), 0.0};
+        const Polar ray{a.angle(), e.angle(), 0.0};
         float& range = ranges_[image_.index(image_.column(ray), image_.row(ray))];
         if (range == kEmpty) range = kNoReturn;
       }
+    return true;
   }
 
   /// Range between two hits, one on each side: of the plane through them if they are alike, else of the nearer; kEmpty if one is missing.

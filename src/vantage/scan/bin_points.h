@@ -36,6 +36,7 @@ struct BinReport {
   std::int64_t points = 0, near = 0, far = 0;  ///< Kept, nearer than min_range, farther than max_range.
   std::int64_t hit = 0, between = 0;           ///< Directions with a hit, and without one but with hits close by on both sides.
   std::int64_t empty = 0, outside = 0;         ///< Directions without: within the field of view, and outside of it.
+  bool ordered = false;                        ///< The rays of an organised scan were used, for its hits lie in their columns and rows.
 };
 
 template <int Dim>
@@ -54,7 +55,8 @@ template <int Dim>
 /// direction without a hit that has hits close by on both sides, along or across, lies on the surface between them: four rays from hit to hit, or
 /// four times the distance between points, for a cloud thinned to even spacing is sparse in angle close by. The field of view is what hits cover:
 /// elevations between the lowest and the highest with three hits or more, azimuths without a gap of 15 degrees. With `order`, the rays that came back
-/// empty are free and those not fired unknown, whatever the options say. Throws bad_input if no point is left.
+/// empty are free and those not fired unknown, whatever the options say, unless its hits do not lie on columns of one azimuth and rows of one
+/// elevation. Throws bad_input if no point is left.
 template <int Dim>
 [[nodiscard]] BinnedScan<Dim> bin_points(std::span<const Vec<Dim>> points, const Pose<Dim>& pose, const BinOptions& options,
                                          const std::optional<RayOrder>& order = std::nullopt);

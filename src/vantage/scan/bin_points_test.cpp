@@ -173,6 +173,31 @@ TEST(BinPoints, OfOrganisedRaysTheEmptyOnesAreFreeAndThoseNotFiredUnknown) {
   EXPECT_EQ(binned.report.empty, 18);
 }
 
+TEST(BinPoints, ATableWhoseHitsLieElsewhereIsNotBelieved) {
+  // The same table the wrong way round: 36 rows of one azimuth each. Its means would call any direction free.
+  std::vector<Vec<3>> points;
+  std::vector<std::int32_t> turned;
+  for (int c = 0; c < 36; ++c)
+    for (int r = 0; r < 3; ++r) {
+      const bool empty = c % 5 == 0;
+      const auto [s, k] = sin_cos(radians(10.0 * c));
+      const auto [up, flat] = sin_cos(radians(10.0 * (r - 1)));
+      turned.push_back(empty ? -1 : static_cast<std::int32_t>(points.size()));
+      if (!empty) points.push_back(7.0 * Vec<3>(flat * k, flat * s, up));
+    }
+  std::vector<std::int32_t> order(turned.size());
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t r = 0; r < 36; ++r) order[c * 36 + r] = turned[r * 3 + c];
+  const BinOptions options{radians(10.0), 0.0, 80.0, false};
+  const auto no_returns = [&](const RayOrder& rays) {
+    const BinnedScan<3> binned = bin_points<3>(points, Pose<3>{}, options, rays);
+    EXPECT_EQ(binned.report.ordered, rays.columns == 36);
+    return std::count(binned.scan.ranges.begin(), binned.scan.ranges.end(), kNoReturn);
+  };
+  EXPECT_EQ(no_returns({3, 36, order}), 0);
+  EXPECT_EQ(no_returns({36, 3, turned}), 0);  // Whole columns are empty: nothing tells where they point.
+}
+
 TEST(BinPoints, AThinnedCloudHasNoHolesCloseBy) {
   // A floor 1.4 m below the scanner with a point every 10 cm: sparse in angle straight below.
   std::vector<Vec<3>> points;

@@ -111,8 +111,9 @@ double range_of(std::span<const std::vector<Vec<3>>> clouds, std::span<const Pla
   return std::max(1.0, std::ceil(std::min(most, *std::max_element(ranges.begin(), ranges.end()))));
 }
 
-std::optional<RayOrder> order_of(const MeasuredScan& scan) {
-  if (!scan.rays) return std::nullopt;
+/// Where the file leaves open which rays were fired, the option decides.
+std::optional<RayOrder> order_of(const MeasuredScan& scan, MeasuredOptions::NoReturn no_return) {
+  if (!scan.rays || (scan.rays->assumed && no_return == MeasuredOptions::NoReturn::unknown)) return std::nullopt;
   return RayOrder{scan.rays->columns, scan.rays->rows, scan.rays->point};
 }
 
@@ -158,7 +159,7 @@ std::vector<MeasuredInput> read_measured(std::span<const fs::path> files, const 
   for (std::size_t k = 0; k < scans.size(); ++k) {
     const MeasuredScan& scan = scans[k].scan;
     try {
-      BinnedScan<3> binned = bin_points<3>(clouds[k], places[k].pose, bins, order_of(scan));
+      BinnedScan<3> binned = bin_points<3>(clouds[k], places[k].pose, bins, order_of(scan, options.no_return));
       const FilterReport filtered =
           filter_points(binned.scan.points, {binned.scan.origin, binned.scan.world_from_sensor}, binned.report.step, options.filter);
       require(!binned.scan.points.empty(), "no points are left by the filter");

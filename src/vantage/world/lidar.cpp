@@ -11,7 +11,9 @@
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
+#include "vantage/geometry/angle.h"
 #include "vantage/geometry/ray_caster.h"
+#include "vantage/scan/confirm.h"
 #include "vantage/world/inside_solid.h"
 
 namespace vantage {
@@ -35,6 +37,28 @@ float measure(double range, const LidarOptions& options, Random random) {
   return range < std::max(low, kTouching) ? kNoData : static_cast<float>(range);
 }
 
+/// Turns by an angle in each of the planes that two axes span.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> random_turn(double deviation, Random& random) {
+  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+  for (int a = 0; a < Dim; ++a)
+    for (int b = a + 1; b < Dim; ++b) {
+      const auto [s, c] = sin_cos(deviation * random.normal());
+      Eigen::Matrix<double, Dim, Dim> plane = Eigen::Matrix<double, Dim, Dim>::Identity();
+      plane(a, a) = plane(b, b) = c;
+      plane(a, b) = -s;
+      plane(b, a) = s;
+      turn = turn * plane;
+    }
+  return turn;
+}
+
+/// Random numbers of a whole scan; its rays have the streams below.
+Random random_of_scan(const LidarOptions& options, int index) {
+  const std::uint64_t stream = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(index)) << 32) + 0xffffffffU;
+  return Random(static_cast<std::uint64_t>(options.seed), stream);
+}
+
 }  // namespace
 
 void describe(LidarOptions& o, const OptionVisitor& visit) {
@@ -42,6 +66,9 @@ void describe(LidarOptions& o, const OptionVisitor& visit) {
   visit("range_noise", o.range_noise, "m", Range{0.0, 100.0}, "standard deviation of the range");
   visit("dropout", o.dropout, "1", Range{0.0, 1.0}, "share of the rays that give no data");
   visit("outliers", o.outliers, "1", Range{0.0, 1.0}, "share of the hits put at a random shorter range");
+  visit("pose_noise", o.pose_noise, "m", Range{0.0, 100.0}, "standard deviation of the place from the one it reports, along each axis");
+  visit.angle("pose_noise_deg", o.pose_turn, Range{0.0, 45.0}, "standard deviation of the orientation from the one it reports, about each axis");
+  visit("confirmed", o.confirmed, "hits that no ray beside them confirms give no data: against outliers, and at the cost of wires");
   visit("seed", o.seed, "", Range{0.0, 9.0e15}, "of noise, drop-out and outliers");
 }
 
@@ -60,6 +87,18 @@ struct SimulatedLidar<Dim>::Impl {
     const double gap = caster.distance(p, kTouching);
     require(gap >= kTouching, fmt::format("vantage point {}: {:.2g} m from a surface, must be at least {} m", text<Dim>(p), gap, kTouching));
     require(!inside_solid<Dim>(caster, p), fmt::format("vantage point {}: inside an obstacle", text<Dim>(p)));
+  }
+
+  /// Where the scanner stands when it says that it stands at p: in the open still, whatever the noise.
+  Vec<Dim> true_place(const Vec<Dim>& p, Random& random) const {
+    Vec<Dim> off;
+    for (int a = 0; a < Dim; ++a) off[a] = options.pose_noise * random.normal();
+    for (int halvings = 0; halvings < 20; ++halvings, off *= 0.5) {
+      const double length = off.norm();
+      const bool open = !(length > 0.0) || caster.cast(p, off / length, length + kTouching).range == kInfinity;
+      if (open && caster.distance(p + off, kTouching) >= kTouching) return p + off;
+    }
+    return p;
   }
 
   RayCaster<Dim> caster;
@@ -83,11 +122,17 @@ Scan<Dim> SimulatedLidar<Dim>::scan(const Vec<Dim>& vantage_point, int index) {
   scan.origin = vantage_point;
   scan.pattern = impl_->options.pattern;
   scan.ranges.resize(impl_->rays.size());
+  Random random = random_of_scan(impl_->options, index);
+  const Vec<Dim> place = impl_->options.pose_noise > 0.0 ? impl_->true_place(vantage_point, random) : vantage_point;
+  const bool turned = impl_->options.pose_turn > 0.0;
+  const auto turn = random_turn<Dim>(impl_->options.pose_turn, random);
   parallel_for(impl_->rays.size(), 1024, [&](std::size_t i) {
-    const double range = impl_->caster.cast(vantage_point, impl_->rays[i], scan.pattern.max_range).range;
+    const Vec<Dim> ray = turned ? Vec<Dim>((turn * impl_->rays[i]).normalized()) : impl_->rays[i];
+    const double range = impl_->caster.cast(place, ray, scan.pattern.max_range).range;
     const std::uint64_t stream = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(index)) << 32) + i;
     scan.ranges[i] = measure(range, impl_->options, Random(static_cast<std::uint64_t>(impl_->options.seed), stream));
   });
+  if (impl_->options.confirmed) (void)drop_unconfirmed(scan, impl_->options.range_noise);
   return scan;
 }
 

@@ -15,7 +15,11 @@ struct LidarOptions {
   double range_noise = 0.0;  ///< Standard deviation [m].
   double dropout = 0.0;      ///< Share of the rays that give no data [1].
   double outliers = 0.0;     ///< Share of the hits put at a random shorter range [1].
-  std::int64_t seed = 1;     ///< Of the imperfections.
+  /// Standard deviation along each axis of where the scanner stands from where it says it does; halved where it would stand in an obstacle [m].
+  double pose_noise = 0.0;
+  double pose_turn = 0.0;  ///< The same of its orientation about each axis [rad].
+  bool confirmed = false;  ///< Drop hits that no ray beside them confirms (confirm.h).
+  std::int64_t seed = 1;   ///< Of the imperfections.
 };
 
 void describe(LidarOptions& options, const OptionVisitor& visit);

@@ -129,6 +129,71 @@ TYPED_TEST(Lidar, NoiseHasItsDeviationAndIsSeeded) {
   EXPECT_FALSE(same_bits(a, other.scan(origin, 4).ranges));
 }
 
+/// In a room, by its walls: half the difference of the ranges ahead and behind is how far off the scanner stands.
+TYPED_TEST(Lidar, StandsOffWhereItSaysAsFarAsAsked) {
+  constexpr int Dim = TypeParam::value;
+  LidarOptions options = coarse();
+  options.pattern.step = radians(30.0);
+  options.pattern.vertical_fov = radians(180.0);
+  options.pose_noise = 0.1;
+  SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options), again(hollow_room<Dim>(), options);
+  const auto rays = directions<Dim>(options.pattern);
+  const auto along = [&](const std::vector<float>& ranges, int sign) {
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      if ((rays[i] - sign * Vec<Dim>::Unit(0)).norm() < 1e-6) return static_cast<double>(ranges[i]);
+    return kInfinity;
+  };
+  double sum = 0.0, squares = 0.0;
+  constexpr int kScans = 400;
+  for (int index = 0; index < kScans; ++index) {
+    const Scan<Dim> scan = lidar.scan(Vec<Dim>::Zero(), index);
+    EXPECT_EQ(scan.origin, Vec<Dim>(Vec<Dim>::Zero()));  // What it says.
+    const double off = 0.5 * (along(scan.ranges, -1) - along(scan.ranges, 1));
+    sum += off / kScans;
+    squares += off * off / kScans;
+    if (index < 3) EXPECT_TRUE(same_bits(scan.ranges, again.scan(Vec<Dim>::Zero(), index).ranges));
+  }
+  EXPECT_NEAR(sum, 0.0, 4 * 0.1 / std::sqrt(kScans));
+  EXPECT_NEAR(std::sqrt(squares), 0.1, 4 * 0.1 / std::sqrt(2.0 * kScans));
+}
+
+/// A disc seen from its middle looks the same however it is turned; a wall ahead does not: its ranges give the angle back.
+TYPED_TEST(Lidar, IsTurnedAsFarAsAsked) {
+  constexpr int Dim = TypeParam::value;
+  LidarOptions options = coarse();
+  options.pose_turn = radians(2.0);
+  SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
+  options.pose_turn = 0.0;
+  SimulatedLidar<Dim> straight(hollow_room<Dim>(), options);
+  const auto truth = straight.scan(Vec<Dim>::Zero(), 0).ranges;
+  const auto rays = directions<Dim>(options.pattern);
+  double squares = 0.0;
+  int count = 0;
+  for (int index = 0; index < 200; ++index) {
+    const auto ranges = lidar.scan(Vec<Dim>::Zero(), index).ranges;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      // Rays near 30 degrees off the wall ahead, level: range = 3 / cos(a), so da = dr cos^2(a) / (3 sin(a)).
+      const double cosine = rays[i][0], sine = rays[i][1];
+      if (std::abs(cosine * cosine + sine * sine - 1.0) > 1e-3 || cosine < 0.8 || cosine > 0.9) continue;
+      const double turn = (static_cast<double>(ranges[i]) - static_cast<double>(truth[i])) * cosine * cosine / (3.0 * sine);
+      squares += turn * turn;
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 1000);
+  EXPECT_NEAR(std::sqrt(squares / count), radians(2.0), 0.2 * radians(2.0));
+}
+
+/// Where noise would put the scanner behind a wall it stays this side, and its scans stay within the room.
+TYPED_TEST(Lidar, NeverStandsBehindAWall) {
+  constexpr int Dim = TypeParam::value;
+  LidarOptions options = coarse();
+  options.pose_noise = 5.0;
+  SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
+  for (int index = 0; index < 50; ++index)
+    for (const float range : lidar.scan(2.9 * Vec<Dim>::Unit(0), index).ranges) ASSERT_LT(range, 6.0 * std::sqrt(Dim));
+}
+
 TYPED_TEST(Lidar, DropsAndDisplacesTheAskedShare) {
   constexpr int Dim = TypeParam::value;
   LidarOptions options = coarse();
@@ -144,11 +209,29 @@ TYPED_TEST(Lidar, DropsAndDisplacesTheAskedShare) {
   EXPECT_NEAR(share([](float r) { return r < 2.999F; }), 0.8 * 0.1, 0.02);
 }
 
+TYPED_TEST(Lidar, ConfirmedHitsHoldFewStrays) {
+  constexpr int Dim = TypeParam::value;
+  LidarOptions options = coarse();
+  options.pattern.step = radians(Dim == 2 ? 0.1 : 3.0);
+  options.outliers = 0.05;
+  const auto strays = [&] {
+    SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
+    const auto ranges = lidar.scan(Vec<Dim>::Zero(), 0).ranges;
+    return static_cast<double>(std::count_if(ranges.begin(), ranges.end(), [](float r) { return r < 2.5F; })) / static_cast<double>(ranges.size());
+  };
+  const double all = strays();
+  EXPECT_NEAR(all, 0.05 * 2.5 / (Dim == 2 ? 3.4 : 3.8), 0.015);  // Of the room's mean range.
+  options.confirmed = true;
+  EXPECT_LT(strays(), (Dim == 2 ? 0.2 : 0.6) * all);
+}
+
 TYPED_TEST(Lidar, AnswersTheSameOnEveryThread) {
   constexpr int Dim = TypeParam::value;
   LidarOptions options = coarse();
   options.range_noise = 0.02;
   options.dropout = 0.1;
+  options.pose_noise = 0.05;
+  options.pose_turn = radians(0.5);
   SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
   const auto scan = [&](int threads) {
     const ThreadLimit limit(threads);
