@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "audit_measures.h"
+#include "audit_memory.h"
 #include "audit_tables.h"
 #include "vantage/base/error.h"
 #include "vantage/base/version.h"
@@ -76,6 +77,7 @@ class Layout {
                       {"targets", plan.oracle.targets},
                       {"candidates", plan.oracle.candidates},
                       {"walls", plan.walls.places},
+                      {"bound", plan.bound},
                       {"options", scenario_as_toml(world.scenario, false)}};
     oracle_crc_ = crc(common);
     for (const Variant& variant : plan.variants) {
@@ -119,6 +121,7 @@ class Layout {
     const Json oracles = oracles_at(start);
     progress_.begin(label);
     const std::int64_t cap = cap_of(oracles.at("oracles"), plan_.cap);
+    const PeakMemory memory;
     const Clock::time_point begin = Clock::now();
     RunScore<Dim> score;
     try {
@@ -128,12 +131,18 @@ class Layout {
       if (error.code() == ErrorCode::interrupted) return false;
       throw;
     }
-    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count(), peak = memory.peak();
     Json run{{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"cap", cap}};
     run.update(run_json(score, walls_seen<Dim>(*surface_, trial_->truth(), score.places)));
     run["reference_m3"] = oracles.at("reference_m3");
     run["oracles"] = scans_of(oracles.at("oracles"));
-    keep(timing, {{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"scans", score.places.size()}, {"seconds", seconds}});
+    keep(timing, {{"scene", spec_},
+                  {"start", start},
+                  {"variant", plan_.variants[v].name},
+                  {"scans", score.places.size()},
+                  {"seconds", seconds},
+                  {"memory_before_mib", memory.before()},
+                  {"peak_memory_mib", peak}});
     keep(file, run);
     progress_.done(result_line(run));
     return true;
@@ -175,7 +184,7 @@ class Layout {
                     {"targets", table_->targets},
                     {"walls", table_->walls},
                     {"candidates", table_->candidates.size()},
-                    {"oracles", oracles_json(*table_)}};
+                    {"oracles", oracles_json(*table_, bound_work(plan_))}};
     keep(file, json);
     return json;
   }
@@ -216,6 +225,8 @@ std::vector<std::string> layouts_of(const std::string& scene, std::int64_t count
   for (std::int64_t seed = 1; seed <= count; ++seed) layouts.push_back(with_seed(seed));
   return layouts;
 }
+
+std::int64_t bound_work(const AuditPlan& plan) { return 1'000'000 * plan.bound; }
 
 WallOptions all_surface(WallOptions options) {
   options.clutter = true;
