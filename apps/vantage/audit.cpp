@@ -138,6 +138,8 @@ int play(const Flags& flags) {
   require(flags.truth.empty(), "--truth: only of a run folder");
   const AuditPlan plan = plan_of(flags, false);
   require(!plan.variants.empty(), "no variant is named", "--variants");
+  const bool all = flags.variants == "all" || (flags.variants.empty() && flags.own.empty());
+  if (all && !flags.quiet && !left_out().empty()) fmt::print(stderr, "vantage: {}\n", left_out());
   AuditProgress progress(flags.quiet);
   const AuditOutcome outcome = play_audit(plan, progress);
   progress.finish();

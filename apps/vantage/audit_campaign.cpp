@@ -2,6 +2,7 @@
 #include "audit_campaign.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <cctype>
@@ -51,6 +52,13 @@ Json kept(const fs::path& path) {
   return json;
 }
 
+/// Of this process, all threads [s].
+double cpu_seconds() {
+  timespec t{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 std::string result_line(const Json& run) {
   const Json& n99 = run.at("n99");
   return fmt::format("{} scans, {}, oracle {}", run.at("scans").get<std::int64_t>(),
@@ -86,6 +94,7 @@ class Layout {
       key["options"] = scenario_as_toml(scenarios_.back(), false);
       key["cap"] = plan.cap;
       key["to_the_end"] = plan.to_the_end;
+      if (variant.information_gain) key["information_gain"] = true;
       crcs_.push_back(crc(key));
     }
   }
@@ -123,15 +132,18 @@ class Layout {
     const std::int64_t cap = cap_of(oracles.at("oracles"), plan_.cap);
     const PeakMemory memory;
     const Clock::time_point begin = Clock::now();
+    const double cpu_begin = cpu_seconds();
     RunScore<Dim> score;
     try {
-      score = trial_->run(starts_[static_cast<std::size_t>(start)], options_of(scenarios_[v]),
+      TrialOptions options = options_of(scenarios_[v]);
+      options.information_gain = plan_.variants[v].information_gain;
+      score = trial_->run(starts_[static_cast<std::size_t>(start)], options,
                           {.max_scans = cap, .coverage = 0.99, .to_the_end = plan_.to_the_end, .observer = &progress_});
     } catch (const Error& error) {
       if (error.code() == ErrorCode::interrupted) return false;
       throw;
     }
-    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count(), peak = memory.peak();
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count(), cpu = cpu_seconds() - cpu_begin, peak = memory.peak();
     Json run{{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"cap", cap}};
     run.update(run_json(score, walls_seen<Dim>(*surface_, trial_->truth(), score.places)));
     run["reference_m3"] = oracles.at("reference_m3");
@@ -141,6 +153,7 @@ class Layout {
                   {"variant", plan_.variants[v].name},
                   {"scans", score.places.size()},
                   {"seconds", seconds},
+                  {"cpu_seconds", cpu},
                   {"memory_before_mib", memory.before()},
                   {"peak_memory_mib", peak}});
     keep(file, run);
@@ -149,7 +162,7 @@ class Layout {
   }
 
   static TrialOptions options_of(const Scenario& scenario) {
-    TrialOptions options{scenario.explore, scenario.sensor};
+    TrialOptions options{scenario.explore, scenario.sensor, false};
     options.explore.snapshots = false;
     return options;
   }

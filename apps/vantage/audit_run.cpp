@@ -26,7 +26,7 @@ class Playback final : public Sensor<Dim> {
 };
 
 TrialOptions options_of(const Scenario& scenario, std::int64_t scans) {
-  TrialOptions options{scenario.explore, scenario.sensor};
+  TrialOptions options{scenario.explore, scenario.sensor, false};
   options.explore.snapshots = false;
   options.explore.max_scans = std::max(options.explore.max_scans, scans);  // A run may have been given more by hand.
   return options;
@@ -92,7 +92,9 @@ Json score(const std::filesystem::path& folder, const World& world, const std::s
   for (const Variant& variant : plan.variants) {
     progress.begin(variant.name);
     const Scenario scenario = with_settings(world.scenario, variant.settings, world.scene);
-    const RunScore<Dim> theirs = trial.run(start, options_of(scenario, cap), {.max_scans = cap, .coverage = 0.99, .observer = &progress});
+    TrialOptions peer = options_of(scenario, cap);
+    peer.information_gain = variant.information_gain;
+    const RunScore<Dim> theirs = trial.run(start, peer, {.max_scans = cap, .coverage = 0.99, .observer = &progress});
     Json& baseline = json["baselines"][variant.name];
     baseline = run_json(theirs, walls_seen<Dim>(surface, trial.truth(), theirs.places));
     baseline["cap"] = cap;
