@@ -70,7 +70,9 @@ Json seconds_json(const AuditPlan& plan, const std::vector<Json>& seconds) {
       scans += run.at("scans").get<double>();
       peak = std::max(peak, run.value("peak_memory_mib", 0.0));
     }
-    if (scans > 0.0) json[variant.name] = {{"seconds", sum}, {"cpu_seconds", cpu}, {"seconds_a_scan", sum / scans}, {"cpu_seconds_a_scan", cpu / scans}, {"peak_memory_mib", peak}};
+    if (scans > 0.0)
+      json[variant.name] = {
+          {"seconds", sum}, {"cpu_seconds", cpu}, {"seconds_a_scan", sum / scans}, {"cpu_seconds_a_scan", cpu / scans}, {"peak_memory_mib", peak}};
   }
   return json;
 }

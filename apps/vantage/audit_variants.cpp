@@ -34,7 +34,9 @@ std::vector<Setting> settings_of(const std::string& text, const std::string& whe
   return settings;
 }
 
-Variant variant(const std::string& name, const std::string& what, const std::string& settings) { return {name, what, settings_of(settings, name), false}; }
+Variant variant(const std::string& name, const std::string& what, const std::string& settings) {
+  return {name, what, settings_of(settings, name), false};
+}
 
 bool playable(const Variant& variant) { return !variant.information_gain || vantage::has_octomap(); }
 
