@@ -32,7 +32,7 @@ constexpr const char* kExamples =
 
 struct Flags {
   std::vector<std::string> places, sets, own;
-  std::string truth, folder, variants, layouts, starts, seed, voxel, step, cap, targets, candidates, walls, threads, generated, kinds, ground;
+  std::string truth, folder, variants, layouts, starts, seed, voxel, step, cap, targets, candidates, walls, bound, threads, generated, kinds, ground;
   bool scene_start = false, to_the_end = false, curves = false, json = false, quiet = false, verbose = false;
 };
 
@@ -64,6 +64,8 @@ void add_flags(CommandParser& parser, Flags& flags) {
   parser.option("--targets", flags.targets, "N", "reference nodes the oracles look at (default 20000)", method);
   parser.option("--candidates", flags.candidates, "N", "places the oracles choose from (default 1000)", method);
   parser.option("--walls", flags.walls, "N", "places drawn on the true surface (default 10000)", method);
+  parser.option("--bound", flags.bound, "N",
+                "million elementary steps for a proof, beside the oracles, how few scans could do (default 3000; 0: none)", method);
   parser.option("--threads", flags.threads, "N", "at most so many threads (default: all cores); the results do not depend on it", method);
   parser.option("-o,--output", flags.folder, "AUDIT", "folder of the runs, audit.json and report.html (default audit)", output);
   parser.flag("--curves", flags.curves, "print place and share after every scan", output);
@@ -103,6 +105,7 @@ AuditPlan plan_of(const Flags& flags, bool run) {
   take("--targets", flags.targets, 1, 100'000'000, plan.oracle.targets);
   take("--candidates", flags.candidates, 1, 1'000'000, plan.oracle.candidates);
   take("--walls", flags.walls, 1, 100'000'000, plan.walls.places);
+  take("--bound", flags.bound, 0, 1'000'000'000, plan.bound);
   if (!flags.cap.empty()) {
     const std::vector<double> cap = numbers("--cap", flags.cap);
     require(cap.size() == 1 && cap[0] >= 1.0 && cap[0] <= 1000.0, flags.cap + ": must be a number, 1 .. 1000", "--cap");
@@ -135,6 +138,8 @@ int play(const Flags& flags) {
   require(flags.truth.empty(), "--truth: only of a run folder");
   const AuditPlan plan = plan_of(flags, false);
   require(!plan.variants.empty(), "no variant is named", "--variants");
+  const bool all = flags.variants == "all" || (flags.variants.empty() && flags.own.empty());
+  if (all && !flags.quiet && !left_out().empty()) fmt::print(stderr, "vantage: {}\n", left_out());
   AuditProgress progress(flags.quiet);
   const AuditOutcome outcome = play_audit(plan, progress);
   progress.finish();

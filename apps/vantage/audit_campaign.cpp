@@ -2,12 +2,14 @@
 #include "audit_campaign.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <cctype>
 #include <chrono>
 
 #include "audit_measures.h"
+#include "audit_memory.h"
 #include "audit_tables.h"
 #include "vantage/base/error.h"
 #include "vantage/base/version.h"
@@ -50,6 +52,13 @@ Json kept(const fs::path& path) {
   return json;
 }
 
+/// Of this process, all threads [s].
+double cpu_seconds() {
+  timespec t{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 std::string result_line(const Json& run) {
   const Json& n99 = run.at("n99");
   return fmt::format("{} scans, {}, oracle {}", run.at("scans").get<std::int64_t>(),
@@ -76,6 +85,7 @@ class Layout {
                       {"targets", plan.oracle.targets},
                       {"candidates", plan.oracle.candidates},
                       {"walls", plan.walls.places},
+                      {"bound", plan.bound},
                       {"options", scenario_as_toml(world.scenario, false)}};
     oracle_crc_ = crc(common);
     for (const Variant& variant : plan.variants) {
@@ -84,6 +94,7 @@ class Layout {
       key["options"] = scenario_as_toml(scenarios_.back(), false);
       key["cap"] = plan.cap;
       key["to_the_end"] = plan.to_the_end;
+      if (variant.information_gain) key["information_gain"] = true;
       crcs_.push_back(crc(key));
     }
   }
@@ -119,28 +130,39 @@ class Layout {
     const Json oracles = oracles_at(start);
     progress_.begin(label);
     const std::int64_t cap = cap_of(oracles.at("oracles"), plan_.cap);
+    const PeakMemory memory;
     const Clock::time_point begin = Clock::now();
+    const double cpu_begin = cpu_seconds();
     RunScore<Dim> score;
     try {
-      score = trial_->run(starts_[static_cast<std::size_t>(start)], options_of(scenarios_[v]),
+      TrialOptions options = options_of(scenarios_[v]);
+      options.information_gain = plan_.variants[v].information_gain;
+      score = trial_->run(starts_[static_cast<std::size_t>(start)], options,
                           {.max_scans = cap, .coverage = 0.99, .to_the_end = plan_.to_the_end, .observer = &progress_});
     } catch (const Error& error) {
       if (error.code() == ErrorCode::interrupted) return false;
       throw;
     }
-    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count(), cpu = cpu_seconds() - cpu_begin, peak = memory.peak();
     Json run{{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"cap", cap}};
     run.update(run_json(score, walls_seen<Dim>(*surface_, trial_->truth(), score.places)));
     run["reference_m3"] = oracles.at("reference_m3");
     run["oracles"] = scans_of(oracles.at("oracles"));
-    keep(timing, {{"scene", spec_}, {"start", start}, {"variant", plan_.variants[v].name}, {"scans", score.places.size()}, {"seconds", seconds}});
+    keep(timing, {{"scene", spec_},
+                  {"start", start},
+                  {"variant", plan_.variants[v].name},
+                  {"scans", score.places.size()},
+                  {"seconds", seconds},
+                  {"cpu_seconds", cpu},
+                  {"memory_before_mib", memory.before()},
+                  {"peak_memory_mib", peak}});
     keep(file, run);
     progress_.done(result_line(run));
     return true;
   }
 
   static TrialOptions options_of(const Scenario& scenario) {
-    TrialOptions options{scenario.explore, scenario.sensor};
+    TrialOptions options{scenario.explore, scenario.sensor, false};
     options.explore.snapshots = false;
     return options;
   }
@@ -175,7 +197,7 @@ class Layout {
                     {"targets", table_->targets},
                     {"walls", table_->walls},
                     {"candidates", table_->candidates.size()},
-                    {"oracles", oracles_json(*table_)}};
+                    {"oracles", oracles_json(*table_, bound_work(plan_))}};
     keep(file, json);
     return json;
   }
@@ -216,6 +238,8 @@ std::vector<std::string> layouts_of(const std::string& scene, std::int64_t count
   for (std::int64_t seed = 1; seed <= count; ++seed) layouts.push_back(with_seed(seed));
   return layouts;
 }
+
+std::int64_t bound_work(const AuditPlan& plan) { return 1'000'000 * plan.bound; }
 
 WallOptions all_surface(WallOptions options) {
   options.clutter = true;

@@ -22,11 +22,15 @@ struct AuditPlan {
   double cap = 3.0;                        ///< Scans of a run up to 99 %, at most so many times those of the first oracle.
   vantage::OracleOptions oracle;
   vantage::WallOptions walls;
+  std::int64_t bound = 3000;     ///< Million elementary steps for the lower bound of a start; 0: none.
   std::filesystem::path folder;  ///< Of the results.
 };
 
 /// The layouts of a scene: `blocks:seed=1`, `blocks:seed=2`, …; the scene alone if its seed is given or changes nothing.
 [[nodiscard]] std::vector<std::string> layouts_of(const std::string& scene, std::int64_t count);
+
+/// AuditPlan::bound in elementary steps.
+[[nodiscard]] std::int64_t bound_work(const AuditPlan& plan);
 
 /// For the share of all surface seen.
 [[nodiscard]] vantage::WallOptions all_surface(vantage::WallOptions options);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "vantage/audit/fewest_scans.h"
+
 using vantage::Json;
 using vantage::OracleRun;
 using vantage::RunScore;
@@ -36,6 +38,19 @@ Json oracle_json(const SightTable<Dim>& table, const OracleRun& run, bool walls)
   return json;
 }
 
+template <int Dim>
+Json bound_json(const SightTable<Dim>& table, const OracleRun& greedy, std::int64_t work) {
+  const auto fewest = work > 0 ? vantage::fewest_scans(table, greedy, 0.99, work) : std::nullopt;
+  if (!fewest) return nullptr;
+  Json places = Json::array();
+  for (const std::size_t place : fewest->places) places.push_back(vantage::to_json<Dim>(table.candidates[place]));
+  return {{"n99", fewest->at_least},
+          {"relaxation", fewest->relaxation},
+          {"best", fewest->places.size()},
+          {"proven", fewest->proven()},
+          {"places", places}};
+}
+
 /// Scans of an oracle to a share; all it takes if it never gets there.
 std::int64_t oracle_scans(const Json& oracle, const std::string& name) {
   return oracle.at(oracle.at(name).is_null() ? "scans" : name).get<std::int64_t>();
@@ -45,6 +60,24 @@ std::int64_t oracle_scans(const Json& oracle, const std::string& name) {
 std::int64_t run_scans(const Json& run, const std::string& name) { return run.at(run.at(name).is_null() ? "cap" : name).get<std::int64_t>(); }
 
 double ratio(std::int64_t ours, std::int64_t theirs) { return static_cast<double>(ours) / static_cast<double>(std::max<std::int64_t>(theirs, 1)); }
+
+/// Ratios to the bound and to the smallest choice known; null unless all starts have one.
+void add_bounds(Json& sums, const std::vector<Json>& runs) {
+  sums["oracles"][kBound] = sums["ratio_n99_bound"] = sums["ratio_n99_best"] = nullptr;
+  std::int64_t ours = 0, least = 0, best = 0, proven = 0;
+  for (const Json& run : runs) {
+    const Json& bound = run.at("oracles").at(kBound);
+    if (bound.is_null()) return;
+    ours += run_scans(run, "n99");
+    least += bound.at("n99").get<std::int64_t>();
+    best += bound.at("best").get<std::int64_t>();
+    proven += bound.at("proven") == Json(true) ? 1 : 0;
+  }
+  const auto each = [&](std::int64_t sum) { return static_cast<double>(sum) / static_cast<double>(runs.size()); };
+  sums["oracles"][kBound] = {{"n99", each(least)}, {"best", each(best)}, {"proven", proven}};
+  sums["ratio_n99_bound"] = ratio(ours, least);
+  sums["ratio_n99_best"] = ratio(ours, best);
+}
 
 /// Mean of a number of the runs, of those that have it; null if none has.
 Json mean(const std::vector<Json>& runs, const Json::json_pointer& where) {
@@ -68,10 +101,12 @@ Json most(const std::vector<Json>& runs, const char* name) {
 }  // namespace
 
 template <int Dim>
-Json oracles_json(const SightTable<Dim>& table) {
-  return {{kOracles[0], oracle_json(table, greedy_oracle(table), false)},
+Json oracles_json(const SightTable<Dim>& table, std::int64_t work) {
+  const OracleRun anywhere = greedy_oracle(table);
+  return {{kOracles[0], oracle_json(table, anywhere, false)},
           {kOracles[1], oracle_json(table, greedy_oracle(table, {.from_seen = true}), false)},
-          {kOracles[2], oracle_json(table, greedy_oracle(table, {.walls = true}), true)}};
+          {kOracles[2], oracle_json(table, greedy_oracle(table, {.walls = true}), true)},
+          {kBound, bound_json(table, anywhere, work)}};
 }
 
 Json scans_of(const Json& oracles) {
@@ -80,6 +115,8 @@ Json scans_of(const Json& oracles) {
     for (const int share : kShares) json[oracle][name_of(share)] = oracles.at(oracle).at(name_of(share));
     json[oracle]["scans"] = oracles.at(oracle).at("scans");
   }
+  json[kBound] = oracles.at(kBound);
+  if (json[kBound].is_object()) json[kBound].erase("places");
   return json;
 }
 
@@ -152,6 +189,7 @@ Json sums_json(const std::vector<Json>& runs) {
       json["ratio_" + name + (oracle == kOracles[0] ? "" : fmt::format("_{}", oracle))] = ratio(ours, theirs);
     }
   }
+  add_bounds(json, runs);
   json["worst_n99"] = worst;
   json["picks"] = picks;
   json["idle"] = idle;
@@ -179,7 +217,7 @@ std::vector<double> mean_curve(const std::vector<std::vector<double>>& curves) {
   return mean;
 }
 
-template Json oracles_json<2>(const SightTable<2>&);
-template Json oracles_json<3>(const SightTable<3>&);
+template Json oracles_json<2>(const SightTable<2>&, std::int64_t);
+template Json oracles_json<3>(const SightTable<3>&, std::int64_t);
 template Json run_json<2>(const RunScore<2>&, const std::vector<double>&);
 template Json run_json<3>(const RunScore<3>&, const std::vector<double>&);

@@ -8,10 +8,14 @@
 
 /// The oracles of a start, by the names under which they stand in the results.
 inline constexpr const char* kOracles[] = {"anywhere", "seen", "walls"};
+/// Beside them stands how few scans could do at best.
+inline constexpr const char* kBound = "bound";
 
-/// `{"n90", "n95", "n99", "scans", "coverage", "walls", "places"}` of each oracle; the one that must see the walls counts both shares.
+/// `{"n90", "n95", "n99", "scans", "coverage", "walls", "places"}` of each oracle; the one that must see the walls counts both shares. And the bound,
+/// by about `work` elementary steps (fewest_scans.h): `{"n99", "relaxation", "best", "proven", "places"}`, null without work or where the first
+/// oracle never gets there.
 template <int Dim>
-[[nodiscard]] vantage::Json oracles_json(const vantage::SightTable<Dim>& table);
+[[nodiscard]] vantage::Json oracles_json(const vantage::SightTable<Dim>& table, std::int64_t work);
 
 /// The numbers of scans alone.
 [[nodiscard]] vantage::Json scans_of(const vantage::Json& oracles);
@@ -24,7 +28,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] vantage::Json run_json(const vantage::RunScore<Dim>& score, const std::vector<double>& walls);
 
-/// Sums and means over runs, each with `cap` and the `oracles` of its start: ratio = sum over sum, a run that never gets there counts as its cap.
+/// Sums and means over runs (ratios to the bound null unless every start has one), each with `cap` and the `oracles` of its start: ratio = sum over
+/// sum, a run that never gets there counts as its cap.
 [[nodiscard]] vantage::Json sums_json(const std::vector<vantage::Json>& runs);
 
 /// Mean of the curves; one that has ended stays where it is.

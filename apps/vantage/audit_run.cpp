@@ -26,7 +26,7 @@ class Playback final : public Sensor<Dim> {
 };
 
 TrialOptions options_of(const Scenario& scenario, std::int64_t scans) {
-  TrialOptions options{scenario.explore, scenario.sensor};
+  TrialOptions options{scenario.explore, scenario.sensor, false};
   options.explore.snapshots = false;
   options.explore.max_scans = std::max(options.explore.max_scans, scans);  // A run may have been given more by hand.
   return options;
@@ -52,12 +52,15 @@ Json ratio(const Json& ours, const Json& theirs) {
   return ours.get<double>() / theirs.get<double>();
 }
 
-/// Ratios to the first oracle by name, to the others with theirs.
+/// Ratios to the first oracle by name, to the others and to the bound with theirs.
 void add_ratios(Json& run, const Json& oracles) {
   for (const char* share : {"n95", "n99"})
     for (const char* oracle : kOracles)
       run[fmt::format("ratio_{}{}", share, oracle == kOracles[0] ? "" : fmt::format("_{}", oracle))] =
           ratio(run.at(share), oracles.at(oracle).at(share));
+  const Json& bound = oracles.at(kBound);
+  run["ratio_n99_bound"] = bound.is_null() ? Json(nullptr) : ratio(run.at("n99"), bound.at("n99"));
+  run["ratio_n99_best"] = bound.is_null() ? Json(nullptr) : ratio(run.at("n99"), bound.at("best"));
 }
 
 template <int Dim>
@@ -70,7 +73,7 @@ Json score(const std::filesystem::path& folder, const World& world, const std::s
   const Trial<Dim> trial(true_scene<Dim>(world, truth), options);
   const Walls<Dim> walls = trial.walls(plan.walls), surface = trial.walls(all_surface(plan.walls));
   const Vec<Dim> start = log.read(0).origin;
-  const Json oracles = oracles_json(trial.sight_table(start, plan.oracle, &walls));
+  const Json oracles = oracles_json(trial.sight_table(start, plan.oracle, &walls), bound_work(plan));
 
   progress.begin("the run");
   Playback<Dim> playback(log);
@@ -89,7 +92,9 @@ Json score(const std::filesystem::path& folder, const World& world, const std::s
   for (const Variant& variant : plan.variants) {
     progress.begin(variant.name);
     const Scenario scenario = with_settings(world.scenario, variant.settings, world.scene);
-    const RunScore<Dim> theirs = trial.run(start, options_of(scenario, cap), {.max_scans = cap, .coverage = 0.99, .observer = &progress});
+    TrialOptions peer = options_of(scenario, cap);
+    peer.information_gain = variant.information_gain;
+    const RunScore<Dim> theirs = trial.run(start, peer, {.max_scans = cap, .coverage = 0.99, .observer = &progress});
     Json& baseline = json["baselines"][variant.name];
     baseline = run_json(theirs, walls_seen<Dim>(surface, trial.truth(), theirs.places));
     baseline["cap"] = cap;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "audit_tables.h"
 
+#include <algorithm>
+
 #include "audit_measures.h"
 
 using vantage::Json;
@@ -35,6 +37,7 @@ Json plan_json(const AuditPlan& plan) {
           {"targets", plan.oracle.targets},
           {"candidates", plan.oracle.candidates},
           {"walls", plan.walls.places},
+          {"bound", plan.bound},
           {"settings", settings},
           {"variants", variants}};
 }
@@ -59,13 +62,17 @@ Json variants_json(const AuditPlan& plan, const std::vector<Json>& runs) {
 Json seconds_json(const AuditPlan& plan, const std::vector<Json>& seconds) {
   Json json = Json::object();
   for (const Variant& variant : plan.variants) {
-    double sum = 0.0, scans = 0.0;
+    double sum = 0.0, cpu = 0.0, scans = 0.0, peak = 0.0;
     for (const Json& run : seconds) {
       if (run.value("variant", "") != variant.name) continue;
       sum += run.at("seconds").get<double>();
+      cpu += run.value("cpu_seconds", 0.0);
       scans += run.at("scans").get<double>();
+      peak = std::max(peak, run.value("peak_memory_mib", 0.0));
     }
-    if (scans > 0.0) json[variant.name] = {{"seconds", sum}, {"seconds_a_scan", sum / scans}};
+    if (scans > 0.0)
+      json[variant.name] = {
+          {"seconds", sum}, {"cpu_seconds", cpu}, {"seconds_a_scan", sum / scans}, {"cpu_seconds_a_scan", cpu / scans}, {"peak_memory_mib", peak}};
   }
   return json;
 }

@@ -13,5 +13,5 @@
 /// Sums over the runs of each variant, as sums_json().
 [[nodiscard]] vantage::Json variants_json(const AuditPlan& plan, const std::vector<vantage::Json>& runs);
 
-/// Seconds of each variant, in all and a scan.
+/// Seconds, of the clock and of all threads, of each variant, in all and a scan, and the largest peak of the memory.
 [[nodiscard]] vantage::Json seconds_json(const AuditPlan& plan, const std::vector<vantage::Json>& seconds);

@@ -14,20 +14,25 @@ std::string fixed(const Json& value, int digits) { return value.is_number() ? fm
 
 std::string line(const std::string& name, const Json& sums, const Json& seconds) {
   const Json& oracles = sums.at("oracles");
-  return fmt::format("  {:<12} {:>4} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>5}/{:<5} {:>8} {:>9} {:>8} {:>8}\n", name,
-                     sums.at("runs").get<int>(), sums.at("missed").get<int>(), fixed(sums.at("n90"), 1), fixed(sums.at("n95"), 1),
-                     fixed(sums.at("n99"), 1), fixed(oracles.at(kOracles[0]).at("n99"), 1), fixed(oracles.at(kOracles[1]).at("n99"), 1),
-                     fixed(oracles.at(kOracles[2]).at("n99"), 1), fixed(sums.at("ratio_n95"), 2), fixed(sums.at("ratio_n99"), 2),
-                     fixed(sums.at("ratio_n99_walls"), 2), fixed(sums.at("worst_n99"), 2), sums.at("idle").get<int>(), sums.at("picks").get<int>(),
-                     fixed(sums.at("path_m"), 0), fixed(sums.at("most_false_free_m3"), 2),
-                     fmt::format("{}/{}", sums.at("verdicts").at("right").get<int>(), sums.at("verdicts").at("judged").get<int>()),
-                     fixed(seconds.is_object() ? seconds.at("seconds_a_scan") : Json(nullptr), 3));
+  const auto bound = [&](const char* what) { return fixed(oracles.at(kBound).is_null() ? Json(nullptr) : oracles.at(kBound).at(what), 1); };
+  return fmt::format(
+      "  {:<12} {:>4} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>5}/{:<5} {:>8} {:>9} {:>8} {:>8} "
+      "{:>6}\n",
+      name, sums.at("runs").get<int>(), sums.at("missed").get<int>(), fixed(sums.at("n90"), 1), fixed(sums.at("n95"), 1), fixed(sums.at("n99"), 1),
+      fixed(oracles.at(kOracles[0]).at("n99"), 1), bound("best"), bound("n99"), fixed(oracles.at(kOracles[1]).at("n99"), 1),
+      fixed(oracles.at(kOracles[2]).at("n99"), 1), fixed(sums.at("ratio_n95"), 2), fixed(sums.at("ratio_n99"), 2),
+      fixed(sums.at("ratio_n99_bound"), 2), fixed(sums.at("ratio_n99_walls"), 2), fixed(sums.at("worst_n99"), 2), sums.at("idle").get<int>(),
+      sums.at("picks").get<int>(), fixed(sums.at("path_m"), 0), fixed(sums.at("most_false_free_m3"), 2),
+      fmt::format("{}/{}", sums.at("verdicts").at("right").get<int>(), sums.at("verdicts").at("judged").get<int>()),
+      fixed(seconds.is_object() ? seconds.at("seconds_a_scan") : Json(nullptr), 3),
+      fixed(seconds.is_object() ? seconds.at("peak_memory_mib") : Json(nullptr), 0));
 }
 
 std::string head(const std::string& scene) {
-  return fmt::format("{:<14} {:>4} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>11} {:>8} {:>9} {:>8} {:>8}\n", scene, "runs",
-                     "missed", "n90", "n95", "n99", "oracle", "(seen)", "(wall)", "r95", "r99", "r99w", "worst", "idle/picks", "path m", "max free",
-                     "verdicts", "s/scan");
+  return fmt::format(
+      "{:<14} {:>4} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>11} {:>8} {:>9} {:>8} {:>8} {:>6}\n",
+      scene, "runs", "missed", "n90", "n95", "n99", "oracle", "best", "bound", "(seen)", "(wall)", "r95", "r99", "r99b", "r99w", "worst",
+      "idle/picks", "path m", "max free", "verdicts", "s/scan", "MiB");
 }
 
 /// Place and share, scan by scan.
@@ -77,6 +82,10 @@ std::string score_text(const Json& score, bool with_curves) {
                   100.0 * verdict.at("true_fraction").get<double>(), score.at("way_m").empty() ? 0.0 : score.at("way_m").back().get<double>());
   out += fmt::format("scans to           {:>8} {:>6} {:>6}\n", "90 %", "95 %", "99 %") + score_line("this run", score);
   for (const char* oracle : kOracles) out += score_line(fmt::format("oracle, {}", oracle), score.at("oracles").at(oracle));
+  if (const Json& bound = score.at("oracles").at(kBound); !bound.is_null()) {
+    out += fmt::format("  {:<18} {:>20}\n", "best found", bound.at("best").get<int>());
+    out += fmt::format("  {:<18} {:>20}\n", "bound", bound.at("n99").get<int>());
+  }
   for (const auto& [name, run] : score.at("baselines").items()) out += score_line(name, run);
   out += fmt::format("idle picks up to 99 %: {} of {}; falsely free {} m³, falsely hidden {} m³; surface seen {}\n", score.at("idle").get<int>(),
                      score.at("picks").get<int>(), fixed(score.at("false_free_m3"), 2), fixed(score.at("false_hidden_m3"), 2),

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
+#include "vantage/audit/information_gain.h"
 #include "vantage/base/error.h"
 #include "vantage/session/suggest.h"
 
@@ -32,7 +34,11 @@ std::vector<Setting> settings_of(const std::string& text, const std::string& whe
   return settings;
 }
 
-Variant variant(const std::string& name, const std::string& what, const std::string& settings) { return {name, what, settings_of(settings, name)}; }
+Variant variant(const std::string& name, const std::string& what, const std::string& settings) {
+  return {name, what, settings_of(settings, name), false};
+}
+
+bool playable(const Variant& variant) { return !variant.information_gain || vantage::has_octomap(); }
 
 void check(const Variant& variant) {
   vantage::Scenario scratch;
@@ -47,7 +53,7 @@ void check(const Variant& variant) {
 Variant own_variant(const std::string& text) {
   const std::size_t equals = text.find('=');
   require(equals != std::string::npos && equals > 0, text + ": must be NAME=stage.option=value,…", "--variant");
-  Variant own{text.substr(0, equals), text.substr(equals + 1), settings_of(text.substr(equals + 1), "--variant")};
+  Variant own{text.substr(0, equals), text.substr(equals + 1), settings_of(text.substr(equals + 1), "--variant"), false};
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
   require(std::all_of(own.name.begin(), own.name.end(), plain), own.name + ": a name must be letters, digits, _ and -", "--variant");
   return own;
@@ -62,6 +68,8 @@ void add(std::vector<Variant>& chosen, const Variant& variant, const std::string
 
 }  // namespace
 
+std::string left_out() { return vantage::has_octomap() ? "" : "octomap is left out: this build has no OctoMap (liboctomap-dev)"; }
+
 const std::vector<Variant>& built_in_variants() {
   static const std::vector<Variant> all{
       variant("default", "the planner as it stands", ""),
@@ -75,6 +83,7 @@ const std::vector<Variant>& built_in_variants() {
       variant("nearest", "the nearest frontier", "planner.metric=nearest"),
       variant("count", "where most faces of the frontier are in view", "planner.metric=count"),
       variant("random", "any medial node", "planner.metric=random"),
+      {"octomap", "information gain: most unknown voxels of an OctoMap along the rays (needs OctoMap)", {}, true},
   };
   return all;
 }
@@ -82,13 +91,14 @@ const std::vector<Variant>& built_in_variants() {
 std::vector<Variant> chosen_variants(const std::string& names, const std::vector<std::string>& own) {
   const std::vector<Variant>& all = built_in_variants();
   std::vector<Variant> chosen;
-  if (names == "all") chosen = all;
+  if (names == "all") std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), playable);
   const bool listed = names != "all" && names != "none";
   for (const std::string& name : listed ? split(names) : std::vector<std::string>{}) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Variant& v) { return v.name == name; });
     std::vector<std::string> known{"all", "none"};
     for (const Variant& v : all) known.push_back(v.name);
     require(found != all.end(), fmt::format("{}: must be of {}{}", name, fmt::join(known, ", "), vantage::did_you_mean(name, known)), "--variants");
+    require(playable(*found), name + ": this build has no OctoMap (liboctomap-dev)", "--variants");
     add(chosen, *found, "--variants");
   }
   for (const std::string& text : own) add(chosen, own_variant(text), "--variant");

@@ -47,6 +47,11 @@ def test_measures_of_a_small_table(table):
             assert sums["ratio_n99"] == sums["worst_n99"] == pytest.approx(used / oracles["anywhere"]["n99"])
             assert sums["ratio_n99_walls"] == pytest.approx(used / oracles["walls"]["n99"])
             assert oracles["anywhere"]["n99"] <= oracles["walls"]["n99"]
+            bound = oracles["bound"]
+            assert bound["relaxation"] - 1e-6 <= bound["n99"] <= bound["best"] <= oracles["anywhere"]["n99"]
+            assert bound["proven"] == (bound["n99"] == bound["best"]) and len(start["oracles"]["bound"]["places"]) == bound["best"]
+            assert start["oracles"]["bound"]["places"][0] == start["place"]
+            assert sums["ratio_n99_bound"] == pytest.approx(used / bound["n99"]) and sums["ratio_n99_best"] == pytest.approx(used / bound["best"])
             assert sums["coverage"] == run["coverage"] and sums["missed"] == (run["n99"] is None)
             if run["n99"]:  # All up to 99 %: the definition, by hand.
                 assert run["coverage"][run["n99"] - 1] >= 0.99 > max(run["coverage"][: run["n99"] - 1])
@@ -119,6 +124,26 @@ def test_own_variant_and_layouts(vantage, tmp_path):
     assert scene["layouts"] == ["planar:blobs=2,seed=1", "planar:blobs=2,seed=2"] and len(scene["runs"]) == 2
     assert audit["plan"]["variants"] == {"calm": {"what": "planner.lambda_factor=1,planner.rays=200", "settings": {"planner.lambda_factor": "1", "planner.rays": "200"}}}
     assert audit["plan"]["settings"] == {"explore.seed": "7"}
+
+
+def test_without_a_bound(vantage, tmp_path):
+    result = vantage("audit", "planar", *SMALL, "--variants", "nearest", "--bound", 0, "-o", tmp_path / "none", "--json")
+    assert result.returncode == 0, result.stderr
+    audit = json.loads(result.stdout)
+    assert audit["scenes"][0]["starts"][0]["oracles"]["bound"] is None and audit["all"]["nearest"]["ratio_n99_bound"] is None
+    (run,) = json.loads((tmp_path / "none" / "timing.json").read_text())["scenes"][0]["runs"]
+    assert 1 < run["memory_before_mib"] <= run["peak_memory_mib"] < 4000 and run["cpu_seconds"] > 0
+
+
+def test_information_gain_where_octomap_is(vantage, tmp_path):
+    result = vantage("audit", "planar:blobs=2", *SMALL, "--variants", "octomap", "--cap", 2, "-o", tmp_path / "peer", "--json")
+    if result.returncode == 2:
+        assert result.stderr.splitlines() == ["vantage: --variants: octomap: this build has no OctoMap (liboctomap-dev)"]
+        assert not (tmp_path / "peer").exists()
+        return
+    assert result.returncode == 0, result.stderr
+    (run,) = json.loads(result.stdout)["scenes"][0]["runs"]
+    assert run["variant"] == "octomap" and len(run["coverage"]) >= 2
 
 
 def test_live_line_on_a_terminal(vantage, table):

@@ -169,6 +169,7 @@ TABLE = [
     (["audit", "planar", "--starts", "0"], 2, "--starts: 0: must be"),
     (["audit", "planar", "--layouts", "x"], 2, "--layouts: x: must be"),
     (["audit", "planar", "--cap", "0.5"], 2, "--cap: 0.5: must be"),
+    (["audit", "planar", "--bound", "-1"], 2, "--bound: -1: must be"),
     (["audit", "planar", "--set", "planner.rays=0"], 2, "planner.rays = 0: must be"),
     (["audit", "planar", "--voxel", "0.0001"], 2, "nodes of the reference lattice: must be below"),
     (["audit", "planar", "--truth", "planar"], 2, "--truth: only of a run folder"),

@@ -27,7 +27,7 @@ bool verdict_right(const Verdict<Dim>& verdict, const Coverage& truth) {
 }
 
 template <int Dim>
-RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits) {
+RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits, Pilot<Dim>* pilot) {
   RunScore<Dim> score;
   double best = 0.0;
   const auto enough = [&] {
@@ -35,6 +35,8 @@ RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference
     return static_cast<std::int64_t>(score.places.size()) >= limits.max_scans;
   };
   while (!explorer.finished() && !enough()) {
+    if (pilot != nullptr && !explorer.steps().empty())
+      if (const auto place = pilot->next(explorer)) explorer.go_to(*place);
     const StepRecord<Dim>& step = explorer.step();
     const Coverage now = coverage(reference, explorer.states());
     score.places.push_back(step.vantage);
@@ -54,7 +56,7 @@ template struct RunScore<2>;
 template struct RunScore<3>;
 template bool verdict_right<2>(const Verdict<2>&, const Coverage&);
 template bool verdict_right<3>(const Verdict<3>&, const Coverage&);
-template RunScore<2> score_run<2>(Explorer<2>&, const Reference<2>&, const ScoreLimits&);
-template RunScore<3> score_run<3>(Explorer<3>&, const Reference<3>&, const ScoreLimits&);
+template RunScore<2> score_run<2>(Explorer<2>&, const Reference<2>&, const ScoreLimits&, Pilot<2>*);
+template RunScore<3> score_run<3>(Explorer<3>&, const Reference<3>&, const ScoreLimits&, Pilot<3>*);
 
 }  // namespace vantage

@@ -33,6 +33,16 @@ struct ScoreLimits {
   Observer* observer = nullptr;  ///< May stop it.
 };
 
+/// Chooses the next place in the planner's stead.
+template <int Dim>
+  requires SpatialDim<Dim>
+class Pilot {
+ public:
+  virtual ~Pilot() = default;
+  /// After every step: a node of explorer.reachable(), or nullopt for the place the planner proposes.
+  [[nodiscard]] virtual std::optional<Vec<Dim>> next(const Explorer<Dim>& explorer) = 0;
+};
+
 /// Scans after the first, up to the one that reaches 99 %, that added less than 0.1 % of the reference set.
 [[nodiscard]] std::int64_t idle_picks(std::span<const double> coverage);
 
@@ -41,8 +51,10 @@ struct ScoreLimits {
 template <int Dim>
 [[nodiscard]] bool verdict_right(const Verdict<Dim>& verdict, const Coverage& truth);
 
-/// Steps the explorer to its end or a limit and judges the map after every scan. Throws interrupted when the observer asks to stop.
+/// Steps the explorer to its end or a limit and judges the map after every scan. With a pilot it goes where that says, but ends when it would.
+/// Throws interrupted when the observer asks to stop.
 template <int Dim>
-[[nodiscard]] RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits = {});
+[[nodiscard]] RunScore<Dim> score_run(Explorer<Dim>& explorer, const Reference<Dim>& reference, const ScoreLimits& limits = {},
+                                      Pilot<Dim>* pilot = nullptr);
 
 }  // namespace vantage

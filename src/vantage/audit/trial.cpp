@@ -2,6 +2,7 @@
 #include "vantage/audit/trial.h"
 
 #include "vantage/audit/coverage.h"
+#include "vantage/audit/information_gain.h"
 #include "vantage/base/random.h"
 
 namespace vantage {
@@ -85,9 +86,11 @@ template <int Dim>
   requires SpatialDim<Dim>
 RunScore<Dim> Trial<Dim>::run(Sensor<Dim>& sensor, const Vec<Dim>& start, const TrialOptions& options, const ScoreLimits& limits) const {
   ThinParts<Dim> thin = thin_;
-  Watched<Dim> watched(sensor, thin);
+  std::optional<InformationGain<Dim>> peer;
+  if (options.information_gain) peer.emplace(sensor, scene_.domain, typename InformationGain<Dim>::Options{.voxel = options.explore.voxel});
+  Watched<Dim> watched(peer ? *peer : sensor, thin);
   Explorer<Dim> explorer(watched, scene_.domain, start, options.explore, limits.observer);
-  RunScore<Dim> score = score_run(explorer, reference_, limits);
+  RunScore<Dim> score = score_run(explorer, reference_, limits, peer ? static_cast<Pilot<Dim>*>(&*peer) : nullptr);
   score.falsely_hidden = falsely_hidden<Dim>(reference_, truth_, explorer.states(), score.places);
   if (!thin.empty()) score.thin_recall = thin.recall(explorer.surface().patches());
   return score;

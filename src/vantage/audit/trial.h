@@ -11,6 +11,7 @@ namespace vantage {
 struct TrialOptions {
   ExploreOptions explore;
   LidarOptions lidar;
+  bool information_gain = false;  ///< The next place is chosen by OctoMap information gain (information_gain.h).
 };
 
 /// Lattice, eta, clearance and range that suit the scene; the rest as it stands by default.

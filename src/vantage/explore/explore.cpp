@@ -10,6 +10,7 @@
 #include "vantage/belief/belief.h"
 #include "vantage/field/distance.h"
 #include "vantage/planner/planner.h"
+#include "vantage/planner/safe_path.h"
 #include "vantage/scan/fill.h"
 
 namespace vantage {
@@ -174,6 +175,21 @@ struct Explorer<Dim>::Impl {
     return steps.back();
   }
 
+  void go_to(const Vec<Dim>& place) {
+    const Index<Dim> node = window.nearest(place);
+    const bool known = planner && window.inside(node) && planner->reachable().at(node) != 0 && window.position(node) == place;
+    require(known && !finished, fmt::format("place {}: must be a node that can be reached", text(place)), "explore");
+    const std::size_t target = window.linear(node);
+    decision.position = place;
+    decision.score = 0.0;
+    for (const auto& [candidate, score] : decision.scored)
+      if (candidate == target) decision.score = static_cast<double>(score);
+    decision.path = safe_path(planner->reachable(), target, visited.back());
+    path.resize(travelled);
+    path.insert(path.end(), decision.path.begin(), decision.path.end());
+    vantage_point = place;
+  }
+
   void judge() {
     using End = typename Decision<Dim>::End;
     constexpr double kComplete = 0.99;  // Of what can be seen, as estimated.
@@ -253,6 +269,12 @@ template <int Dim>
   requires SpatialDim<Dim>
 const StepRecord<Dim>& Explorer<Dim>::step() {
   return impl_->step();
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+void Explorer<Dim>::go_to(const Vec<Dim>& place) {
+  impl_->go_to(place);
 }
 
 template <int Dim>

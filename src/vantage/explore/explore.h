@@ -42,6 +42,9 @@ class Explorer {
 
   /// One turn: scan, rebuild, see, unite, choose. Call while !finished().
   const StepRecord<Dim>& step();
+  /// Takes the next scan at this node of reachable() instead of where the planner proposes; after a step, while !finished(). Throws bad_input for
+  /// another place.
+  void go_to(const Vec<Dim>& place);
   [[nodiscard]] bool finished() const;
   /// Why it ended, or how it stands.
   [[nodiscard]] Verdict<Dim> verdict() const;

@@ -204,6 +204,31 @@ TYPED_TEST(Explore, WrongInputIsRefusedWithAReason) {
   EXPECT_EQ(code(corner<Dim>(), fine), static_cast<int>(ErrorCode::memory));
 }
 
+TYPED_TEST(Explore, GoesWhereItIsTold) {
+  constexpr int Dim = TypeParam::value;
+  BallWorld<Dim> world = two_balls<Dim>();
+  Vec<Dim> start = Vec<Dim>::Zero();
+  start[1] = -3.2;
+  Explorer<Dim> explorer(world, cube<Dim>(5.0), start, coarse<Dim>());
+  EXPECT_THROW(explorer.go_to(start), Error);  // Nothing is known yet.
+  explorer.step();
+  ASSERT_FALSE(explorer.finished());
+  const Grid<Dim>& grid = explorer.window();
+  std::size_t farthest = grid.linear(grid.nearest(start));
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    if (explorer.reachable()[i] != 0 && (grid.position(i) - start).norm() > (grid.position(farthest) - start).norm()) farthest = i;
+  const Vec<Dim> place = grid.position(farthest);
+  ASSERT_NE(place, explorer.path().back());
+  EXPECT_THROW(explorer.go_to(place + Vec<Dim>::Constant(0.1)), Error);  // No node.
+  EXPECT_THROW(explorer.go_to(Vec<Dim>::Constant(1000.0)), Error);
+  explorer.go_to(place);
+  EXPECT_EQ(explorer.path().back(), place);
+  const StepRecord<Dim> step = explorer.step();
+  EXPECT_EQ(step.vantage, place);
+  EXPECT_GE(step.path_length, (place - start).norm() - 1e-9);
+  EXPECT_GT(step.new_volume, 0.0);
+}
+
 TYPED_TEST(Explore, StopsAtTheLimitWithoutClaimingToBeComplete) {
   constexpr int Dim = TypeParam::value;
   BallWorld<Dim> world = two_balls<Dim>();

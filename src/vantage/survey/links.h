@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "vantage/survey/cover.h"
+#include "vantage/cover/cover.h"
 
 namespace vantage {
 

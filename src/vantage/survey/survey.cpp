@@ -7,7 +7,7 @@
 
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
-#include "vantage/survey/bound.h"
+#include "vantage/cover/bound.h"
 #include "vantage/survey/links.h"
 #include "vantage/survey/tour.h"
 

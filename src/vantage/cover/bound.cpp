@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vantage/survey/bound.h"
+#include "vantage/cover/bound.h"
 
 #include <algorithm>
 #include <cmath>

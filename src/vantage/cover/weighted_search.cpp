@@ -3,7 +3,7 @@
 #include <tuple>
 
 #include "vantage/base/random.h"
-#include "vantage/survey/cover.h"
+#include "vantage/cover/cover.h"
 
 namespace vantage {
 namespace {

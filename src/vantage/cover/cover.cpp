@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vantage/survey/cover.h"
+#include "vantage/cover/cover.h"
 
 #include <algorithm>
 #include <numeric>
