@@ -5,52 +5,45 @@
 #include <cmath>
 
 #include "vantage/base/parallel.h"
-#include "vantage/field/field.h"
+#include "vantage/geometry/angle.h"
 #include "vantage/planner/regions.h"
 #include "vantage/scan/range_image.h"
 
 namespace vantage {
 namespace {
 
-/// A segment or a triangle.
+/// Unit normal of the surface at a node, to the seen side: away from obstacles, towards what was seen, two cells around; beyond the window all goes
+/// on as at its border. Zero if they balance.
 template <int Dim>
-using Corners = std::array<Vec<Dim>, Dim>;
-
-/// Halves the longest side until it is at most `most`.
-template <int Dim>
-void cut(const Corners<Dim>& corners, double most, std::vector<SurfacePiece<Dim>>& pieces) {
-  std::size_t from = 0, to = 1;
-  for (std::size_t i = 0; i < Dim; ++i)
-    for (std::size_t j = i + 1; j < Dim; ++j)
-      if ((corners[i] - corners[j]).norm() > (corners[from] - corners[to]).norm()) from = i, to = j;
-  if ((corners[from] - corners[to]).norm() > most) {
-    Corners<Dim> one = corners, other = corners;
-    one[from] = other[to] = 0.5 * (corners[from] + corners[to]);
-    cut<Dim>(one, most, pieces);
-    cut<Dim>(other, most, pieces);
-    return;
+Vec<Dim> normal_at(const BeliefView<Dim>& view, const Index<Dim>& node) {
+  constexpr int kReach = 2, kSide = 2 * kReach + 1;
+  const Grid<Dim>& grid = view.window();
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  int all = 1;
+  for (int a = 0; a < Dim; ++a) all *= kSide;
+  for (int code = 0; code < all; ++code) {
+    Index<Dim> offset;
+    for (int a = 0, rest = code; a < Dim; ++a, rest /= kSide) offset[a] = rest % kSide - kReach;
+    const Index<Dim> other = (node + offset).cwiseMax(0).cwiseMin((grid.extent.array() - 1).matrix());
+    const NodeState state = view.state.at(other);
+    if (state == NodeState::unseen) continue;
+    sum += (state == NodeState::seen ? 1.0 : -1.0) * offset.template cast<double>();
   }
-  Patch<Dim> patch;
-  patch.count = Dim;
-  std::copy(corners.begin(), corners.end(), patch.vertices.begin());
-  const double area = measure(patch);
-  if (!(area > 0.0)) return;
-  Vec<Dim> center = Vec<Dim>::Zero();
-  for (const Vec<Dim>& p : corners) center += p / Dim;
-  pieces.push_back({center, normal(patch), area});
+  return sum.norm() > 0.0 ? Vec<Dim>(sum.normalized()) : sum;
 }
 
-double azimuth_of(const Vec<2>& p) { return angle_of(p[1], p[0]); }
-double azimuth_of(const Vec<3>& p) { return angle_of(p[1], p[0]); }
-double elevation_of(const Vec<2>&) { return 0.0; }
-double elevation_of(const Vec<3>& p) { return angle_of(p[2], p.head<2>().norm()); }
+int row_of(const ScanPattern&, const Vec<2>&) { return 0; }
+int row_of(const ScanPattern& pattern, const Vec<3>& p) {
+  return static_cast<int>(std::floor((angle_of(p[2], p.head<2>().norm()) - pattern.elevation(0)) / pattern.step + 0.5));
+}
 
 /// Whether a ray next to the direction of the piece, which is given in the sensor's frame, ends on its plane.
 template <int Dim>
 bool looked_at(const RangeImage<Dim>& image, const ScanPattern& pattern, const SurfacePiece<Dim>& piece, double h) {
-  const double reach = piece.center.norm(), slack = 0.5 * h + reach * pattern.step;
-  const auto column = static_cast<int>(std::floor((azimuth_of(piece.center) - pattern.azimuth(0)) / pattern.step + 0.5));
-  const auto row = static_cast<int>(std::floor((elevation_of(piece.center) - pattern.elevation(0)) / pattern.step + 0.5));
+  const double reach = piece.center.norm(), slack = h + reach * pattern.step;
+  const double azimuth = angle_of(piece.center[1], piece.center[0]);
+  const auto column = static_cast<int>(std::floor((azimuth - pattern.azimuth(0)) / pattern.step + 0.5));
+  const int row = row_of(pattern, piece.center);
   for (int c = column - 1; c <= column + 1; ++c)
     for (int r = row - 1; r <= row + 1; ++r) {
       const int i = image.index(c, r);
@@ -65,15 +58,20 @@ bool looked_at(const RangeImage<Dim>& image, const ScanPattern& pattern, const S
 
 template <int Dim>
   requires SpatialDim<Dim>
-Incidence<Dim>::Incidence(std::span<const Patch<Dim>> patches, const Grid<Dim>& window) : window_(window) {
-  for (const Patch<Dim>& patch : patches) {
-    if (patch.rank() != Dim - 1) continue;
-    const auto all = patch.corners();
-    for (std::size_t i = 1; i + Dim - 1 <= all.size(); ++i) {  // A fan.
-      Corners<Dim> corners;
-      corners[0] = all[0];
-      for (std::size_t k = 1; k < Dim; ++k) corners[k] = all[i + k - 1];
-      cut<Dim>(corners, window.spacing, pieces_);
+Incidence<Dim>::Incidence(const BeliefView<Dim>& view) : window_(view.window()) {
+  const double h = window_.spacing;
+  double face = 1.0;
+  for (int a = 1; a < Dim; ++a) face *= h;
+  for (std::size_t i = 0; i < window_.size(); ++i) {
+    if (!view.seen(i) || static_cast<double>(view.known_distance[i]) > 1.01 * h) continue;
+    const Index<Dim> node = window_.local(i);
+    const Vec<Dim> normal = normal_at(view, node);
+    for (int side = 0; side < 2 * Dim; ++side) {
+      Index<Dim> step = Index<Dim>::Zero();
+      step[side / 2] = side % 2 == 0 ? -1 : 1;
+      const double area = face * std::abs(normal[side / 2]);
+      if (area == 0.0 || !window_.inside(node + step) || view.state.at(node + step) != NodeState::obstacle) continue;
+      pieces_.push_back({window_.position(i) + 0.5 * h * step.template cast<double>(), normal, area});
     }
   }
   best_.assign(pieces_.size(), -1.0);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <span>
 #include <vector>
 
-#include "vantage/field/grid.h"
-#include "vantage/geometry/patch.h"
+#include "vantage/field/belief_view.h"
+#include "vantage/geometry/box.h"
 #include "vantage/scan/scan.h"
 
 namespace vantage {
@@ -32,13 +31,13 @@ struct FlatSurface {
   std::vector<FlatRegion<Dim>> regions;  ///< Largest first; small ones are left out.
 };
 
-/// How frontally each place of a surface was looked at. A scan looked at a piece if one of its rays next to the piece's direction ends on the
-/// piece's plane. Flat patches count, thin and single ones have no side to look at.
+/// How frontally each place of the known surface was looked at: of the lattice faces between seen and obstacle nodes, each with its share of the
+/// smooth surface's area and the normal that the states around tell. A scan looked at one if a ray next to its direction ends on its plane.
 template <int Dim>
   requires SpatialDim<Dim>
 class Incidence {
  public:
-  Incidence(std::span<const Patch<Dim>> patches, const Grid<Dim>& window);
+  explicit Incidence(const BeliefView<Dim>& view);
 
   void add(const Scan<Dim>& scan);
 

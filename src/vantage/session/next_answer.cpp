@@ -60,7 +60,7 @@ NextAnswer<Dim> next_answer(const Explorer<Dim>& explorer, const NextOptions& op
   require(request.among.size() + left_out == 0 || !request.among.empty(), "every place lies where --keep-out forbids it", "--among");
   if (left_out > 0) notes.push_back(fmt::format("{} of the places of --among lie where --keep-out forbids them.", left_out));
   if (options.incidence < 90.0) {
-    Incidence<Dim> incidence(explorer.surface().patches(), explorer.window());
+    Incidence<Dim> incidence(explorer.view());
     for (std::size_t k = 0; k < explorer.steps().size(); ++k) incidence.add(scan(static_cast<int>(k)));
     request.least_cosine = sin_cos(radians(options.incidence))[1];
     flat = incidence.flatter(request.least_cosine);
