@@ -39,17 +39,27 @@ struct Flag {
   const char *name, *type, *option, *group;
 };
 constexpr Flag kFlags[] = {
-    {"--count", "N", "next.count", "Next station"},           {"--height", "METRES", "next.height", "Next station"},
-    {"--stand", "WHERE", "next.stand", "Next station"},       {"--slope-deg", "DEGREES", "next.slope_deg", "Next station"},
-    {"--step", "METRES", "next.step", "Next station"},        {"--clearance", "METRES", "planner.clearance", "Next station"},
+    {"--count", "N", "next.count", "Next station"},
+    {"--height", "METRES", "next.height", "Next station"},
+    {"--stand", "WHERE", "next.stand", "Next station"},
+    {"--slope-deg", "DEGREES", "next.slope_deg", "Next station"},
+    {"--step", "METRES", "next.step", "Next station"},
+    {"--clearance", "METRES", "planner.clearance", "Next station"},
     {"--incidence-deg", "DEGREES", "next.incidence_deg", "Next station"},
-    {"--overlap", "SHARE", "next.overlap", "Next station"},   {"--apart", "METRES", "next.apart", "Next station"},
-    {"--frame", "FRAME", "measured.frame", "Scans"},          {"--up", "AXIS", "measured.up", "Scans"},
-    {"--no-return", "WHAT", "measured.no_return", "Scans"},   {"--range", "METRES", "measured.range", "Scans"},
-    {"--min-range", "METRES", "measured.min_range", "Scans"}, {"--step-deg", "DEGREES", "measured.step_deg", "Scans"},
-    {"--filter", "WHAT", "measured.filter", "Scans"},         {"--eta", "METRES", "surface.eta", "Method"},
-    {"--voxel", "METRES", "explore.voxel", "Method"},         {"--grid", "CELLS", "explore.grid", "Method"},
-    {"--margin", "METRES", "next.margin", "Method"},          {"--seed", "N", "explore.seed", "Method"},
+    {"--overlap", "SHARE", "next.overlap", "Next station"},
+    {"--apart", "METRES", "next.apart", "Next station"},
+    {"--frame", "FRAME", "measured.frame", "Scans"},
+    {"--up", "AXIS", "measured.up", "Scans"},
+    {"--no-return", "WHAT", "measured.no_return", "Scans"},
+    {"--range", "METRES", "measured.range", "Scans"},
+    {"--min-range", "METRES", "measured.min_range", "Scans"},
+    {"--step-deg", "DEGREES", "measured.step_deg", "Scans"},
+    {"--filter", "WHAT", "measured.filter", "Scans"},
+    {"--eta", "METRES", "surface.eta", "Method"},
+    {"--voxel", "METRES", "explore.voxel", "Method"},
+    {"--grid", "CELLS", "explore.grid", "Method"},
+    {"--margin", "METRES", "next.margin", "Method"},
+    {"--seed", "N", "explore.seed", "Method"},
 };
 
 /// Lists, given once or several times.

@@ -89,7 +89,8 @@ void check_crossings(const Zone& zone, const std::string& where) {
       const Edge &e = edges[i], &f = edges[j];
       if (!e.meets(f) || may_meet(e, f, zone.rings[e.ring].size())) continue;
       const Vec<2>& at = e.holds(f.b) ? f.b : f.a;
-      require(false, fmt::format("the polygon crosses or touches itself near {:.10g},{:.10g}: its sides may meet at the corners only", at.x(), at.y()),
+      require(false,
+              fmt::format("the polygon crosses or touches itself near {:.10g},{:.10g}: its sides may meet at the corners only", at.x(), at.y()),
               where);
     }
 }

@@ -9,7 +9,7 @@ namespace vantage {
 
 /// What lies straight above and below a polygon of the ground plane, between two heights; in 2D the polygon itself. Borders belong to it.
 struct Zone {
-  std::vector<std::vector<Vec<2>>> rings;      ///< The outline, then its holes; the first corner is not repeated at the end [m].
+  std::vector<std::vector<Vec<2>>> rings;     ///< The outline, then its holes; the first corner is not repeated at the end [m].
   double low = -kInfinity, high = kInfinity;  ///< Heights [m].
 
   template <int Dim>

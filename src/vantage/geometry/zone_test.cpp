@@ -56,9 +56,9 @@ TEST(Zones, AreWhatTheBoxIs) {
 }
 
 TEST(Zones, MeetBoxesThatHoldNoneOfTheirCorners) {
-  EXPECT_TRUE(corner().meets<2>({{2, 0.2}, {3, 0.4}}));                                       // All inside.
-  EXPECT_FALSE(corner().meets<2>({{1.5, 1.5}, {3, 3}}));                                      // In the angle of the L.
-  EXPECT_FALSE(frame().meets<2>({{4, 4}, {6, 6}}));                                           // In the hole.
+  EXPECT_TRUE(corner().meets<2>({{2, 0.2}, {3, 0.4}}));   // All inside.
+  EXPECT_FALSE(corner().meets<2>({{1.5, 1.5}, {3, 3}}));  // In the angle of the L.
+  EXPECT_FALSE(frame().meets<2>({{4, 4}, {6, 6}}));       // In the hole.
   EXPECT_TRUE(frame().meets<2>({{4, 4}, {6, 8}}));
   EXPECT_TRUE((Zone{{{{0, 0.5}, {9, 0.5}, {9, 0.51}}}}.meets<2>({{4, 0}, {5, 1}})));  // A sliver across.
   EXPECT_FALSE(corner().meets<3>({{0, 0, 2.5}, {1, 1, 3}}));
@@ -79,9 +79,9 @@ TEST(Zones, RefuseWhatIsNoPolygon) {
   EXPECT_THAT(error_of({{{0, 0}, {1, 0}}}), HasSubstr("2 corners: a polygon has at least 3"));
   EXPECT_THAT(error_of({{{0, 0}, {1, 0}, {0, 0}, {0, 0}}}), HasSubstr("at least 3"));
   EXPECT_THAT(error_of({{{0, 0}, {1, 0}, {1, nan}}}), HasSubstr("finite"));
-  EXPECT_THAT(error_of({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}), HasSubstr("crosses or touches itself"));                          // A bow tie.
-  EXPECT_THAT(error_of({{{0, 0}, {4, 0}, {2, 0}, {2, 3}}}), HasSubstr("crosses or touches itself"));                          // Back on itself.
-  EXPECT_THAT(error_of({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}}), HasSubstr("near 2,0"));                                   // Pinched.
+  EXPECT_THAT(error_of({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}), HasSubstr("crosses or touches itself"));                     // A bow tie.
+  EXPECT_THAT(error_of({{{0, 0}, {4, 0}, {2, 0}, {2, 3}}}), HasSubstr("crosses or touches itself"));                     // Back on itself.
+  EXPECT_THAT(error_of({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}}), HasSubstr("near 2,0"));                              // Pinched.
   EXPECT_THAT(error_of({{{0, 0}, {9, 0}, {9, 9}}, {{5, 1}, {12, 2}, {6, 2}}}), HasSubstr("crosses or touches itself"));  // A hole sticks out.
   EXPECT_THAT(error_of(corner().rings, 2.0, 1.0), HasSubstr("the lower comes first"));
 }

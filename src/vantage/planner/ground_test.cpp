@@ -19,8 +19,7 @@ constexpr GroundOptions kWalker{1.5, 0.3, 0.2, 0.6};
 /// Free above `height_at`, ground at and below it.
 template <int Dim, class HeightAt>
 HandMade<Dim> land(HeightAt&& height_at) {
-  return HandMade<Dim>(cube<Dim>(4.0),
-                       [&](const Vec<Dim>& p) { return p[Dim - 1] <= height_at(p) + 1e-9 ? NodeState::obstacle : NodeState::seen; });
+  return HandMade<Dim>(cube<Dim>(4.0), [&](const Vec<Dim>& p) { return p[Dim - 1] <= height_at(p) + 1e-9 ? NodeState::obstacle : NodeState::seen; });
 }
 
 template <int Dim>

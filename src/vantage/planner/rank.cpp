@@ -221,8 +221,8 @@ struct Planner<Dim>::Ranking {
   RayMarch<Dim> clear = planner.rays(view, nullptr);
   Mending<Dim> mending{request, clear, planner.max_range_};
   std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(kRays), planner.seed_ * 1000003 + planner.visited_.size());
-  Field<Dim> unshown{view.window(), 1.0F};      // Share of each node that no taken place shows.
-  Field<Dim> left = planner.weight_;            // The same times w; empty: w is 1.
+  Field<Dim> unshown{view.window(), 1.0F};  // Share of each node that no taken place shows.
+  Field<Dim> left = planner.weight_;        // The same times w; empty: w is 1.
   double most_mended = 0.0;
 
   void take(const Vec<Dim>& place) {

@@ -75,8 +75,9 @@ std::string names_overlay(const std::vector<Named>& names, const Camera& camera)
   std::vector<Vec<2>> taken;
   for (const Named& name : names)
     for (Vec<2> p : on_picture<3>(std::vector<Vec<3>>{name.place}, camera)) {
-      p.x() = std::clamp(p.x(), 90.0, std::max(90.0, camera.width() - 90.0));
-      if (std::any_of(taken.begin(), taken.end(), [&](const Vec<2>& q) { return std::abs(q.y() - p.y()) < kNameGap && std::abs(q.x() - p.x()) < 200.0; }))
+      p.x() = std::clamp(p.x(), 130.0, std::max(130.0, camera.width() - 130.0));
+      if (std::any_of(taken.begin(), taken.end(),
+                      [&](const Vec<2>& q) { return std::abs(q.y() - p.y()) < kNameGap && std::abs(q.x() - p.x()) < 200.0; }))
         continue;
       taken.push_back(p);
       texts += fmt::format(R"(<text class="unseen" x="{:.1f}" y="{:.1f}">{}</text>)", p.x(), p.y(), escaped(name.text));
@@ -138,8 +139,8 @@ std::string plan_overlay(const ReportInput<3>& input, const Box<3>& box, const C
 }
 
 std::string plan_legend(const ReportInput<3>& input) {
-  std::string legend = legend_entry("rank", "", "place to scan from, by rank") + legend_entry("dot", "", "scan, by number") +
-                       legend_entry("line", "", "way to 1");
+  std::string legend =
+      legend_entry("rank", "", "place to scan from, by rank") + legend_entry("dot", "", "scan, by number") + legend_entry("line", "", "way to 1");
   if (input.plan.order.size() > 1) legend += legend_entry("dashes", "", "tour past all of them");
   if (!input.plan.keep_out.empty()) legend += legend_entry("zone out", "", "kept out of");
   if (!input.plan.must_see.empty()) legend += legend_entry("zone see", "", "to be seen");
@@ -194,9 +195,12 @@ std::vector<Figure> next_figures(const ReportInput<3>& input, const Box<3>& box,
   draw_patches(surfaces, input.patches, {input.domain, height_range(input), Colours::clay});
   if (input.state.window.size() > 0) draw_unseen(unseen, input.state);
   Figure space{"next-space", "The next places in space", {}, plan_legend(input), {}};
-  space.caption = "The same from above, with the border of the unseen, which shows through the surfaces. Numbers of unseen regions are those of the table.";
-  space.panels.push_back({unseen_image(surfaces, unseen), plan_overlay(input, box, bird, false) + names_overlay(names, bird),
-                          "Bird's view of the places to scan from next, the tour past them, and the unseen space.", {}});
+  space.caption =
+      "The same from above, with the border of the unseen, which shows through the surfaces. Numbers of unseen regions are those of the table.";
+  space.panels.push_back({unseen_image(surfaces, unseen),
+                          plan_overlay(input, box, bird, false) + names_overlay(names, bird),
+                          "Bird's view of the places to scan from next, the tour past them, and the unseen space.",
+                          {}});
   std::vector<Figure> figures;
   figures.push_back(std::move(plan));
   figures.push_back(std::move(space));

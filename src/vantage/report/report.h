@@ -40,8 +40,8 @@ struct ReportInput {
   SurfaceStatistics surface;
   std::vector<RankedPlace<Dim>> next = {};  ///< Places to scan from next, best first; of a person's scans.
   NextPlan<Dim> plan = {};
-  std::vector<std::string> notes = {};      ///< What was assumed of them.
-  int picture_width = 1400;                 ///< Of the large pictures [pixels].
+  std::vector<std::string> notes = {};  ///< What was assumed of them.
+  int picture_width = 1400;             ///< Of the large pictures [pixels].
 };
 
 /// One self-contained HTML page (no network, pictures inline).

@@ -69,9 +69,10 @@ std::string flat_html(const NextPlan<Dim>& plan, const char* unit) {
     rows.push_back({number(region.area), number(degrees(region.incidence)), size_text<Dim>(region.box), place_text<Dim>(region.box.center())});
   const std::vector<std::string> columns{fmt::format(">Surface [{}]", unit), ">Mean angle [°]", "Size", "Around"};
   const auto split = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kListed, rows.size()));
-  std::string html = fmt::format("<section id=\"flat\"><h2>What was only seen too flat</h2>\n<p class=\"note\">{} of known surface in all; the angle is "
-                                 "that between the best ray and the surface's normal.</p>\n",
-                                 quantity(plan.flat_area, unit));
+  std::string html = fmt::format(
+      "<section id=\"flat\"><h2>What was only seen too flat</h2>\n<p class=\"note\">{} of known surface in all; the angle is "
+      "that between the best ray and the surface's normal.</p>\n",
+      quantity(plan.flat_area, unit));
   html += table(columns, {rows.begin(), split});
   if (split != rows.end()) html += details(fmt::format("{} more, smaller ones", rows.end() - split), table(columns, {split, rows.end()}));
   return html + "</section>\n";

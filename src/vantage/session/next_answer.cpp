@@ -17,7 +17,7 @@ template <int Dim>
 Json ranked_json(const RankedPlace<Dim>& place) {
   return {{"vantage", to_json<Dim>(place.position)}, {"score", place.score},          {"new_volume_m3", place.new_volume},
           {"added_volume_m3", place.added_volume},   {"new_area_m2", place.new_area}, {"overlap", place.overlap},
-          {"path_m", length_of<Dim>(place.path)},      {"mended_m2", place.mended}};
+          {"path_m", length_of<Dim>(place.path)},    {"mended_m2", place.mended}};
 }
 
 /// What was only seen too flat; null without a limit.
@@ -120,16 +120,16 @@ std::string next_csv(const NextAnswer<Dim>& answer) {
   for (const RankedPlace<Dim>& p : answer.ranked) {
     Vec<3> at = Vec<3>::Zero();
     at.template head<Dim>() = p.position;
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", ++rank, at[0], at[1], at[2], p.score, p.new_volume, p.added_volume, p.new_area, p.overlap,
-                       length_of<Dim>(p.path), p.mended);
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", ++rank, at[0], at[1], at[2], p.score, p.new_volume, p.added_volume, p.new_area,
+                       p.overlap, length_of<Dim>(p.path), p.mended);
   }
   return out;
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                                                     \
-  template NextAnswer<D> next_answer<D>(const Explorer<D>&, const NextOptions&, const std::function<Scan<D>(int)>&, std::vector<std::string>&);    \
-  template NextPlan<D> next_plan<D>(const NextAnswer<D>&, const NextOptions&);                                                                     \
-  template Json answer_json<D>(const NextAnswer<D>&, const Explorer<D>&);                                                                          \
+#define VANTAGE_INSTANTIATE(D)                                                                                                                  \
+  template NextAnswer<D> next_answer<D>(const Explorer<D>&, const NextOptions&, const std::function<Scan<D>(int)>&, std::vector<std::string>&); \
+  template NextPlan<D> next_plan<D>(const NextAnswer<D>&, const NextOptions&);                                                                  \
+  template Json answer_json<D>(const NextAnswer<D>&, const Explorer<D>&);                                                                       \
   template std::string next_csv<D>(const NextAnswer<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

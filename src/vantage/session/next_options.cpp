@@ -150,9 +150,9 @@ void require_met(const NextOptions& options, const Box<Dim>& domain, std::span<c
   }
 }
 
-#define VANTAGE_INSTANTIATE(D)                                        \
+#define VANTAGE_INSTANTIATE(D)                                                               \
   template void require_met<D>(const NextOptions&, const Box<D>&, std::span<const Setting>); \
-  template std::vector<Vec<D>> places_of<D>(std::span<const double>); \
+  template std::vector<Vec<D>> places_of<D>(std::span<const double>);                        \
   template void check_lists<D>(const NextOptions&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

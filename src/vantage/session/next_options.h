@@ -16,18 +16,18 @@ struct NextOptions {
   /// Where the scanner stands: on walkable ground, anywhere in the seen space, or as the scans were taken: of a person's scans on the ground, if
   /// ground is found below them, of simulated ones anywhere.
   enum class Stand { scans, ground, air } stand = Stand::scans;
-  double height = 0.0;           ///< Above the ground [m]; 0: as the scans were taken.
-  double slope = 30.0;           ///< Steepest ground [deg].
-  double step = 0.2;             ///< Highest step [m].
-  double apart = 0.0;            ///< Between places of the list [m]; 0: four cells, but 1 m at least.
-  double overlap = 0.0;          ///< Least share of known surface in view [1].
-  double incidence = 90.0;       ///< Between ray and normal: what is met flatter does not count as seen well [deg].
-  double margin = 0.0;           ///< Of the domain around the points [m]; 0: two cells.
-  std::vector<double> domain;    ///< Low corner, high corner [m]; empty: around the points.
-  std::vector<double> among;     ///< Only these places come into question, one after the other [m]; empty: all that can be reached.
-  std::vector<double> planned;   ///< Stations already planned, one after the other [m].
-  std::string keep_out;          ///< Zones where no scanner may stand or pass (next_zones.h).
-  std::string must_see;          ///< Zones where what is hidden counts ten times.
+  double height = 0.0;          ///< Above the ground [m]; 0: as the scans were taken.
+  double slope = 30.0;          ///< Steepest ground [deg].
+  double step = 0.2;            ///< Highest step [m].
+  double apart = 0.0;           ///< Between places of the list [m]; 0: four cells, but 1 m at least.
+  double overlap = 0.0;         ///< Least share of known surface in view [1].
+  double incidence = 90.0;      ///< Between ray and normal: what is met flatter does not count as seen well [deg].
+  double margin = 0.0;          ///< Of the domain around the points [m]; 0: two cells.
+  std::vector<double> domain;   ///< Low corner, high corner [m]; empty: around the points.
+  std::vector<double> among;    ///< Only these places come into question, one after the other [m]; empty: all that can be reached.
+  std::vector<double> planned;  ///< Stations already planned, one after the other [m].
+  std::string keep_out;         ///< Zones where no scanner may stand or pass (next_zones.h).
+  std::string must_see;         ///< Zones where what is hidden counts ten times.
 };
 
 void describe(NextOptions& options, const OptionVisitor& visit);

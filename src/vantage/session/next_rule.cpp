@@ -116,7 +116,8 @@ StationRule<Dim> station_rule(const NextOptions& options, double clearance, bool
   StationRule<Dim> result;
   const auto rule = std::make_shared<Rule<Dim>>(options, clearance, measured, notes);
   result.all = rule->on_ground();
-  if (result.all || !options.keep_out.empty()) result.places = [rule](const BeliefView<Dim>& view, const Vec<Dim>& here) { return (*rule)(view, here); };
+  if (result.all || !options.keep_out.empty())
+    result.places = [rule](const BeliefView<Dim>& view, const Vec<Dim>& here) { return (*rule)(view, here); };
   if (!options.must_see.empty())
     result.worth = [zones = zones_of<Dim>(options.must_see, "--must-see")](const Vec<Dim>& p) {
       return std::any_of(zones.begin(), zones.end(), [&](const Zone& zone) { return zone.template contains<Dim>(p); }) ? kWorth : 1.0;
