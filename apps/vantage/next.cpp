@@ -39,26 +39,41 @@ struct Flag {
   const char *name, *type, *option, *group;
 };
 constexpr Flag kFlags[] = {
-    {"--count", "N", "next.count", "Next station"},           {"--height", "METRES", "next.height", "Next station"},
-    {"--stand", "WHERE", "next.stand", "Next station"},       {"--slope-deg", "DEGREES", "next.slope_deg", "Next station"},
-    {"--step", "METRES", "next.step", "Next station"},        {"--clearance", "METRES", "planner.clearance", "Next station"},
-    {"--overlap", "SHARE", "next.overlap", "Next station"},   {"--apart", "METRES", "next.apart", "Next station"},
-    {"--frame", "FRAME", "measured.frame", "Scans"},          {"--up", "AXIS", "measured.up", "Scans"},
-    {"--no-return", "WHAT", "measured.no_return", "Scans"},   {"--range", "METRES", "measured.range", "Scans"},
-    {"--min-range", "METRES", "measured.min_range", "Scans"}, {"--step-deg", "DEGREES", "measured.step_deg", "Scans"},
-    {"--filter", "WHAT", "measured.filter", "Scans"},         {"--eta", "METRES", "surface.eta", "Method"},
-    {"--voxel", "METRES", "explore.voxel", "Method"},         {"--grid", "CELLS", "explore.grid", "Method"},
-    {"--margin", "METRES", "next.margin", "Method"},          {"--seed", "N", "explore.seed", "Method"},
+    {"--count", "N", "next.count", "Next station"},
+    {"--height", "METRES", "next.height", "Next station"},
+    {"--stand", "WHERE", "next.stand", "Next station"},
+    {"--slope-deg", "DEGREES", "next.slope_deg", "Next station"},
+    {"--step", "METRES", "next.step", "Next station"},
+    {"--clearance", "METRES", "planner.clearance", "Next station"},
+    {"--incidence-deg", "DEGREES", "next.incidence_deg", "Next station"},
+    {"--overlap", "SHARE", "next.overlap", "Next station"},
+    {"--apart", "METRES", "next.apart", "Next station"},
+    {"--frame", "FRAME", "measured.frame", "Scans"},
+    {"--up", "AXIS", "measured.up", "Scans"},
+    {"--no-return", "WHAT", "measured.no_return", "Scans"},
+    {"--range", "METRES", "measured.range", "Scans"},
+    {"--min-range", "METRES", "measured.min_range", "Scans"},
+    {"--step-deg", "DEGREES", "measured.step_deg", "Scans"},
+    {"--filter", "WHAT", "measured.filter", "Scans"},
+    {"--eta", "METRES", "surface.eta", "Method"},
+    {"--voxel", "METRES", "explore.voxel", "Method"},
+    {"--grid", "CELLS", "explore.grid", "Method"},
+    {"--margin", "METRES", "next.margin", "Method"},
+    {"--seed", "N", "explore.seed", "Method"},
 };
 
-/// Lists of numbers, given once or several times.
+/// Lists, given once or several times.
 struct ListFlag {
   const char *name, *type, *option, *help;
+  const char* joint = ",";
 };
 constexpr ListFlag kLists[] = {
     {"--domain", "x0,y0,z0,x1,y1,z1", "next.domain", "what is to be seen, a box [m] (default: around the points, without strays)"},
-    {"--keep-out", "x0,y0,z0,x1,y1,z1", "next.keep_out", "a box where no scanner may stand or pass [m]; several: give it again"},
-    {"--must-see", "x0,y0,z0,x1,y1,z1", "next.must_see", "a box where what is hidden counts ten times [m]; several: give it again"},
+    {"--keep-out", "ZONE", "next.keep_out",
+     "where no scanner may stand or pass: a box x0,y0,z0,x1,y1,z1 [m], a polygon \"x,y x,y x,y\" or a file of polygons (.geojson, .csv) in the "
+     "coordinates of the scans, with heights by \"... z=LOW..HIGH\"; several: give it again",
+     "; "},
+    {"--must-see", "ZONE", "next.must_see", "where what is hidden counts ten times: a zone as above; several: give it again", "; "},
     {"--among", "x,y,z", "next.among", "only this place comes into question [m]; several: give it again"},
     {"--planned", "x,y,z", "next.planned", "a station that is planned already: what it will show is not counted again [m]; several: give it again"},
 };
@@ -140,7 +155,7 @@ class NextFlags {
     }
     k = 0;
     for (const std::vector<std::string>& texts : lists_) {
-      if (!texts.empty()) all.push_back({kLists[k].option, fmt::format("{}", fmt::join(texts, ",")), kLists[k].name});
+      if (!texts.empty()) all.push_back({kLists[k].option, fmt::format("{}", fmt::join(texts, kLists[k].joint)), kLists[k].name});
       ++k;
     }
     return all;
@@ -184,6 +199,8 @@ std::string answer_text(const vantage::NextOutcome& outcome) {
     out += fmt::format(
         "  why      it faces {} {} of the border of what was seen, and would show about {} {} more; {:.0f} % of its view is known surface\n",
         volume(number(best["new_area_m2"])), side, volume(number(best["new_volume_m3"])), unit, 100.0 * number(best["overlap"]));
+    if (number(best["mended_m2"]) > 0.0)
+      out += fmt::format("  mends    {} {} of surface that was only seen too flat\n", volume(number(best["mended_m2"])), side);
     out += fmt::format("  way      {:.1f} m from the last scan, {} turns\n", number(best["path_m"]), j["path"].size() > 2 ? j["path"].size() - 2 : 0);
     for (std::size_t k = 1; k < j["ranked"].size(); ++k) {
       const Json& place = j["ranked"][k];
@@ -202,6 +219,9 @@ std::string answer_text(const vantage::NextOutcome& outcome) {
     out += fmt::format("{} {} {} ({})", k == 0 ? "; largest" : ",", volume(number(unseen[k]["volume_m3"])), unit,
                        unseen[k]["reason"].get<std::string>());
   out += "\n";
+  if (const Json& flat = j["flat"]; !flat.is_null())
+    out += fmt::format("  flat     {} {} of surface only seen flatter than {:g} degrees, in {} regions\n", volume(number(flat["area_m2"])), side,
+                       number(flat["limit_deg"]), flat["regions"].size());
   for (const std::string& note : outcome.notes) out += fmt::format("note: {}\n", note);
   if (!outcome.folder.empty()) {
     const char* file = outcome.report ? vantage::run_file::kReport : vantage::run_file::kNext;

@@ -7,31 +7,18 @@ import math
 import struct
 
 import pytest
+from next_scenes import COARSE, ask, at, write_slabs
 
 DOMAIN = "0,0,0,10,6,3"
-COARSE = ("--voxel", 0.25, "--eta", 0.05)
-
-
-def box(low, high):
-    """Corners and triangles of a box."""
-    corners = [[(low, high)[k >> a & 1][a] for a in range(3)] for k in range(8)]
-    quads = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
-    return corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
 
 
 @pytest.fixture(scope="module")
 def rooms(tmp_path_factory):
     """Two rooms, 10 x 6 x 3 m together, with a door 1.5 m wide between them."""
     path = tmp_path_factory.mktemp("rooms") / "rooms.obj"
-    lines, first = [], 1
     slabs = [((-1, -1, -1), (11, 7, 0)), ((-1, -1, 3), (11, 7, 4)), ((-1, -1, 0), (0, 7, 3)), ((10, -1, 0), (11, 7, 3)),
              ((0, -1, 0), (10, 0, 3)), ((0, 6, 0), (10, 7, 3)), ((4.9, 0, 0), (5.1, 4.5, 3))]  # fmt: skip
-    for low, high in slabs:
-        corners, triangles = box(low, high)
-        lines += [f"v {x} {y} {z}" for x, y, z in corners]
-        lines += [f"f {a + first} {b + first} {c + first}" for a, b, c in triangles]
-        first += 8
-    path.write_text("\n".join(lines) + "\n")
+    write_slabs(path, slabs)
     return path
 
 
@@ -47,16 +34,6 @@ def scan(vantage, rooms, tmp_path_factory):
         return path
 
     return take
-
-
-def ask(vantage, *arguments):
-    result = vantage("next", *arguments, "--json")
-    assert result.returncode == 0, result.stderr
-    return json.loads(result.stdout)
-
-
-def at(place):
-    return ",".join(map(str, place))
 
 
 def test_the_other_room_is_next(vantage, scan):

@@ -39,8 +39,10 @@ class Floors {
     return p;
   }
   /// Keeps the floors that a scanner can stand on.
-  void keep_free(const GroundOptions& options) {
-    parallel_for(columns_, 64, [&](std::size_t c) { std::erase_if(floors_[c], [&](const Floor& f) { return !is_free(c, f, options); }); });
+  void keep_free(const GroundOptions& options, const std::function<bool(const Vec<Dim>&)>& closed) {
+    parallel_for(columns_, 64, [&](std::size_t c) {
+      std::erase_if(floors_[c], [&](const Floor& f) { return !is_free(c, f, options) || (closed && is_closed(c, f, options.height, closed)); });
+    });
   }
   /// Levels next to where the scanner stands on a floor: within a cell.
   template <class Use>
@@ -97,6 +99,12 @@ class Floors {
     return any && clear;
   }
 
+  [[nodiscard]] bool is_closed(std::size_t c, const Floor& floor, double height, const std::function<bool(const Vec<Dim>&)>& closed) const {
+    bool any = false;
+    for_levels(floor, height, [&](std::int32_t k) { any = any || closed(grid_.position(node(c, k))); });
+    return any;
+  }
+
   const BeliefView<Dim>& view_;
   Grid<Dim> grid_;
   std::size_t columns_ = 0;
@@ -106,10 +114,11 @@ class Floors {
 }  // namespace
 
 template <int Dim>
-Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options) {
+Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options,
+                                        const std::function<bool(const Vec<Dim>&)>& closed) {
   Field<Dim, std::uint8_t> nodes(view.window());
   Floors<Dim> floors(view);
-  floors.keep_free(options);
+  floors.keep_free(options, closed);
   const Vec<Dim> below = from - options.height * Vec<Dim>::Unit(Dim - 1);
   double nearest = std::max(kFarthest, 2.0 * options.height);
   std::size_t column = floors.columns(), first = 0;
@@ -151,8 +160,9 @@ double height_above_ground(const BeliefView<Dim>& view, const Vec<Dim>& from, do
   return heights[heights.size() / 2];
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                                  \
-  template Field<D, std::uint8_t> walkable_nodes<D>(const BeliefView<D>&, const Vec<D>&, const GroundOptions&); \
+#define VANTAGE_INSTANTIATE(D)                                                                                 \
+  template Field<D, std::uint8_t> walkable_nodes<D>(const BeliefView<D>&, const Vec<D>&, const GroundOptions&, \
+                                                    const std::function<bool(const Vec<D>&)>&);                \
   template double height_above_ground<D>(const BeliefView<D>&, const Vec<D>&, double);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

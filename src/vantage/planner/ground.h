@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <functional>
 
 #include "vantage/field/belief_view.h"
 
@@ -17,9 +18,10 @@ struct GroundOptions {
 /// Nodes a scanner on legs may be put at: seen, at `height` (to within a cell) above known ground, all below it seen and free, at `clearance` from
 /// the known surfaces, and joined to the ground nearest to `from` over slopes and steps that can be walked (1, else 0). None if no ground is known
 /// within 6 m or twice the height of `from`, whichever is more. The ground is where an obstacle node lies below a seen one; its height is good to a
-/// small part of a cell, by the distance to the known surface.
+/// small part of a cell, by the distance to the known surface. Nodes that are `closed` cannot be stood at, nor walked through below.
 template <int Dim>
-[[nodiscard]] Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options);
+[[nodiscard]] Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options,
+                                                      const std::function<bool(const Vec<Dim>&)>& closed = {});
 
 /// Height of `from` above the known ground straight below it or, where that was not seen, the median over the columns within `reach`; infinity if
 /// there is none [m].

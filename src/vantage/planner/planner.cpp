@@ -21,16 +21,17 @@ namespace {
 
 constexpr double kMatters = 0.005;  // Of the seen volume: of last looks that may show so much there may be twice as many.
 
-/// w of every node, from the boxes of PlannerOptions::weights; empty if there are none.
+/// w of every node, from the boxes of PlannerOptions::weights and what the rule holds it worth; empty if there is neither.
 template <int Dim>
-Field<Dim> weight_field(const Grid<Dim>& window, const std::vector<double>& weights) {
-  if (weights.empty()) return {};
+Field<Dim> weight_field(const Grid<Dim>& window, const std::vector<double>& weights, const std::function<double(const Vec<Dim>&)>& worth) {
+  if (weights.empty() && !worth) return {};
   Field<Dim> field(window, 1.0F);
   for (std::size_t i = 0; i < field.values.size(); ++i)
     for (auto box = weights.begin(); box != weights.end(); box += 2 * Dim + 1) {
       const Box<Dim> region{Eigen::Map<const Vec<Dim>>(&box[0]), Eigen::Map<const Vec<Dim>>(&box[Dim])};
       if (region.contains(window.position(i))) field[i] = static_cast<float>(box[2 * Dim]);
     }
+  if (worth) parallel_for(field.values.size(), 1024, [&](std::size_t i) { field[i] *= static_cast<float>(worth(window.position(i))); });
   return field;
 }
 
@@ -134,7 +135,7 @@ template <int Dim>
 Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& here, double new_volume) {
   using Metric = PlannerOptions::Metric;
   visited_.push_back(here);
-  if (weight_.values.empty()) weight_ = weight_field<Dim>(view.window(), options_.weights);
+  if (weight_.values.empty()) weight_ = weight_field<Dim>(view.window(), options_.weights, rule_.worth);
   MarchGrid<Dim> grid(view.state);
   if (pool_ && !grid.grown_from(grid_)) pool_->forget();
   grid_ = std::move(grid);

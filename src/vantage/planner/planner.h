@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/field/belief_view.h"
+#include "vantage/planner/incidence.h"
 #include "vantage/planner/lazy_pool.h"
 #include "vantage/planner/opening.h"
 #include "vantage/planner/planner_options.h"
@@ -35,6 +36,7 @@ template <int Dim>
 struct StationRule {
   std::function<Field<Dim, std::uint8_t>(const BeliefView<Dim>&, const Vec<Dim>& here)> places;
   bool all = false;  ///< Every such node is a candidate (a layer above the ground has no medial axis); false: the medial ones.
+  std::function<double(const Vec<Dim>&)> worth = {};  ///< Times the weight w of a place [1]; none: 1 everywhere.
 };
 
 /// What is wanted of a list of places to scan from.
@@ -45,6 +47,10 @@ struct RankRequest {
   double overlap = 0.0;                ///< Least share of known surface in what is in view, for registration [1].
   std::vector<Vec<Dim>> planned = {};  ///< Stations already planned: what they will show is not counted again.
   std::vector<Vec<Dim>> among = {};    ///< Only these places, wherever they are; empty: the candidates of the last decision.
+  double least_cosine = 0.0;           ///< Between ray and normal: what is met flatter shows nothing, and known surface not well; 0: any [1].
+  /// Known surface that was only seen flatter. Beside E a place counts what it would show of this well, as a share of the most that any place faces
+  /// of it or of the shadow boundary.
+  std::vector<SurfacePiece<Dim>> mend = {};
 };
 
 /// A place to scan from, beside the others of a list.
@@ -57,6 +63,7 @@ struct RankedPlace {
   double new_area = 0.0;                 ///< Eq. (1) with line of sight: shadow boundary that faces it, in view [m^(Dim-1)].
   double overlap = 0.0;                  ///< Share of known surface in what is in view [1].
   std::vector<Vec<Dim>> path;            ///< From where we are [m].
+  double mended = 0.0;                   ///< Of RankRequest::mend, beyond the better places [m^(Dim-1)].
 };
 
 /// Chooses vantage points by the visibility metric (paper Eq. 1, Sec. III-A). A function of the ordered scans: no hidden randomness.
@@ -96,6 +103,7 @@ class Planner {
     RaySums sums;
     double score = 0.0;
   };
+  struct Ranking;
   [[nodiscard]] std::vector<Scored> score_by_rays(const BeliefView<Dim>& view, std::span<const std::size_t> nodes);
   [[nodiscard]] std::vector<Scored> score_by_boundary(const BeliefView<Dim>& view, std::span<const std::size_t> nodes) const;
   [[nodiscard]] std::vector<Scored> score_by_baseline(const BeliefView<Dim>& view, std::span<const std::size_t> nodes,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <queue>
 #include <tuple>
+#include <unordered_map>
 
 #include "vantage/base/parallel.h"
 #include "vantage/planner/planner.h"
@@ -22,12 +23,51 @@ double fading(double x) {
   return value;
 }
 
+/// Which rays meet the shadow boundary frontally enough.
+template <int Dim>
+class Facing {
+ public:
+  Facing(std::span<const BoundaryFace<Dim>> faces, double least) : least_(least) {
+    if (least <= 0.0) return;
+    for (const BoundaryFace<Dim>& face : faces) normals_.try_emplace(face.unseen, Vec<Dim>::Zero()).first->second += face.normal;
+  }
+  [[nodiscard]] bool any() const { return least_ <= 0.0; }
+  /// Where a ray of that direction first meets the unseen; over a corner there may be no face.
+  [[nodiscard]] bool holds(std::size_t unseen, const Vec<Dim>& direction) const {
+    const auto found = any() ? normals_.end() : normals_.find(unseen);
+    return found == normals_.end() || -direction.dot(found->second) >= least_ * found->second.norm();
+  }
+
+ private:
+  double least_;
+  std::unordered_map<std::size_t, Vec<Dim>> normals_;  // Of unseen nodes that have faces; any length.
+};
+
 /// What a scan from a place is expected to show, by straight lines through the lattice.
 template <int Dim>
 class Preview {
  public:
-  Preview(const BeliefView<Dim>& view, const Field<Dim>& openness, double opacity, double range)
-      : view_(view), openness_(openness), grid_(view.window()), fade_(fading(0.5 * opacity * grid_.spacing)), range_(range) {}
+  struct Medium {
+    double opacity = 0.0, range = 0.0;
+  };
+  Preview(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium, const Facing<Dim>& facing)
+      : view_(view),
+        openness_(openness),
+        grid_(view.window()),
+        fade_(fading(0.5 * medium.opacity * grid_.spacing)),
+        range_(medium.range),
+        facing_(facing) {}
+
+  /// The directions along which what is met first is unseen and met frontally enough.
+  [[nodiscard]] std::vector<Vec<Dim>> frontal(const Vec<Dim>& from, std::span<const Vec<Dim>> directions) const {
+    std::vector<Vec<Dim>> kept;
+    for (const Vec<Dim>& d : directions)
+      walk(from, d, range_, [&](std::size_t i) {
+        if (view_.state[i] == NodeState::unseen && facing_.holds(i, d)) kept.push_back(d);
+        return view_.state[i] == NodeState::seen;
+      });
+    return kept;
+  }
 
   /// Probability that the unseen node is shown to `from`: that the boundary opens, times what the unseen lets through; 0 behind a known surface.
   [[nodiscard]] double shows(const Vec<Dim>& from, std::size_t node) const {
@@ -41,6 +81,7 @@ class Preview {
       obstacle = state == NodeState::obstacle;
       if (obstacle) return false;
       if (state == NodeState::unseen) {
+        if (open < 0.0 && !facing_.holds(i, offset / distance)) through = 0.0;
         open = std::max(open, static_cast<double>(openness_[i]));
         through *= fade_;
       }
@@ -88,6 +129,63 @@ class Preview {
   const Field<Dim>& openness_;
   Grid<Dim> grid_;
   double fade_, range_;
+  const Facing<Dim>& facing_;
+};
+
+/// Known surface that waits for a better look.
+template <int Dim>
+class Mending {
+ public:
+  Mending(const RankRequest<Dim>& request, const RayMarch<Dim>& march, double range)
+      : pieces_(request.mend), left_(pieces_.size(), 1), least_(request.least_cosine), range_(range), march_(march) {}
+
+  [[nodiscard]] bool any() const { return !pieces_.empty(); }
+  /// What a scan from there would show well and no taken place does [m^(Dim-1)].
+  [[nodiscard]] double area(const Vec<Dim>& from) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      if (left_[i] != 0 && shows(from, pieces_[i])) sum += pieces_[i].area;
+    return sum;
+  }
+  void take(const Vec<Dim>& from) {
+    parallel_for(pieces_.size(), 256, [&](std::size_t i) {
+      if (left_[i] != 0 && shows(from, pieces_[i])) left_[i] = 0;
+    });
+  }
+  /// Of the nodes that are 1 and of every block of four of them along each axis one, those that show most.
+  [[nodiscard]] std::vector<Vec<Dim>> viewers(const Field<Dim, std::uint8_t>& nodes) const {
+    constexpr std::size_t kMost = 200;
+    Grid<Dim> blocks = nodes.window;
+    blocks.extent = (blocks.extent.array() + 3) / 4;
+    std::vector<std::uint8_t> taken(blocks.size());
+    std::vector<Vec<Dim>> places;
+    for (std::size_t i = 0; i < nodes.values.size(); ++i) {
+      if (nodes[i] == 0) continue;
+      std::uint8_t& of_block = taken[blocks.linear(nodes.window.local(i) / 4)];
+      if (of_block == 0) places.push_back(nodes.window.position(i));
+      of_block = 1;
+    }
+    std::vector<std::pair<double, std::size_t>> order(places.size());
+    parallel_for(places.size(), 1, [&](std::size_t i) { order[i] = {-area(places[i]), i}; });
+    std::sort(order.begin(), order.end());
+    std::vector<Vec<Dim>> best;
+    for (std::size_t k = 0; k < std::min(kMost, order.size()) && order[k].first < 0.0; ++k) best.push_back(places[order[k].second]);
+    return best;
+  }
+
+ private:
+  [[nodiscard]] bool shows(const Vec<Dim>& from, const SurfacePiece<Dim>& piece) const {
+    const Vec<Dim> offset = from - piece.center;
+    const double distance = offset.norm(), along = offset.dot(piece.normal);
+    if (distance > range_ || std::abs(along) < least_ * distance) return false;
+    // The pieces lie in cells that are no free space: to before them.
+    return march_.line_of_sight(from, piece.center, 2.0 * march_.spacing());
+  }
+
+  const std::vector<SurfacePiece<Dim>>& pieces_;
+  std::vector<std::uint8_t> left_;
+  double least_, range_;
+  const RayMarch<Dim>& march_;
 };
 
 /// A candidate and the score it had when so many places had been taken.
@@ -111,28 +209,71 @@ std::vector<Vec<Dim>> Planner<Dim>::way_to(const Vec<Dim>& place) const {
   return path;
 }
 
+/// What rank() asks of places.
+template <int Dim>
+  requires SpatialDim<Dim>
+struct Planner<Dim>::Ranking {
+  const Planner& planner;
+  const BeliefView<Dim>& view;
+  const RankRequest<Dim>& request;
+  Facing<Dim> facing{planner.opening_.faces(), request.least_cosine};
+  Preview<Dim> preview{view, planner.opening_.openness(), {planner.opacity_, planner.max_range_}, facing};
+  RayMarch<Dim> clear = planner.rays(view, nullptr);
+  Mending<Dim> mending{request, clear, planner.max_range_};
+  std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(kRays), planner.seed_ * 1000003 + planner.visited_.size());
+  Field<Dim> unshown{view.window(), 1.0F};  // Share of each node that no taken place shows.
+  Field<Dim> left = planner.weight_;        // The same times w; empty: w is 1.
+  double most_mended = 0.0;
+
+  void take(const Vec<Dim>& place) {
+    preview.take(place, unshown);
+    for (std::size_t i = 0; i < left.values.size(); ++i) left[i] = planner.weight_[i] * unshown[i];
+    mending.take(place);
+  }
+  [[nodiscard]] RaySums look(const Vec<Dim>& place, const Field<Dim>* weight) const {
+    if (facing.any()) return planner.rays(view, weight).look(place, directions);
+    const std::vector<Vec<Dim>> some = preview.frontal(place, directions);
+    if (some.empty()) return {};
+    RaySums sums = planner.rays(view, weight).look(place, some);
+    const double share = static_cast<double>(some.size()) / static_cast<double>(directions.size());
+    for (double* sum : {&sums.volume, &sums.solid_angle, &sums.area}) *sum *= share;
+    return sums;
+  }
+  [[nodiscard]] const Field<Dim>* weight() const { return left.values.empty() ? &unshown : &left; }
+  [[nodiscard]] double score(const RaySums& sums, double mended) const {
+    const double most = std::max(planner.scale_.area, most_mended);
+    return planner.mix(sums) + (most > 0.0 ? mended / most : 0.0);
+  }
+};
+
 template <int Dim>
   requires SpatialDim<Dim>
 std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, const RankRequest<Dim>& request) const {
   const Grid<Dim>& grid = view.window();
-  const Preview<Dim> preview(view, opening_.openness(), opacity_, max_range_);
-  const std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(kRays), seed_ * 1000003 + visited_.size());
-  Field<Dim> left = weight_.values.empty() ? Field<Dim>(grid, 1.0F) : weight_;
-  const auto take = [&](const Vec<Dim>& place) { preview.take(place, left); };
-  for (const Vec<Dim>& place : request.planned) take(place);
+  Ranking ranking{*this, view, request};
+  for (const Vec<Dim>& place : request.planned) ranking.take(place);
 
-  double least = options_.stop_volume * static_cast<double>(seen_nodes(view));
-  for (int a = 0; a < Dim; ++a) least *= grid.spacing;
+  double least = options_.stop_volume * static_cast<double>(seen_nodes(view)), least_mended = 1.0;
+  for (int a = 0; a < Dim; ++a) least *= grid.spacing, least_mended *= a > 0 ? 3.0 * grid.spacing : 1.0;
+  const bool limited = request.least_cosine > 0.0;
   std::priority_queue<Entry> queue;
   std::vector<Vec<Dim>> places = request.among;
   if (places.empty())
     for (const auto& [node, score] : last_) {
-      queue.push({score, places.size(), kNever});
+      queue.push({limited ? kInfinity : score, places.size(), kNever});
       places.push_back(grid.position(node));
     }
   else
     for (std::size_t k = 0; k < places.size(); ++k) queue.push({kInfinity, k, kNever});
-  const bool stands = request.planned.empty() && request.among.empty() && !last_.empty();
+  if (request.among.empty() && ranking.mending.any())
+    for (const Vec<Dim>& place : ranking.mending.viewers(reachable_)) {
+      queue.push({kInfinity, places.size(), kNever});
+      places.push_back(place);
+    }
+  std::vector<double> mended(places.size());
+  if (ranking.mending.any()) parallel_for(places.size(), 1, [&](std::size_t k) { mended[k] = ranking.mending.area(places[k]); });
+  for (const double area : mended) ranking.most_mended = std::max(ranking.most_mended, area);
+  const bool stands = request.planned.empty() && request.among.empty() && !last_.empty() && !limited;
   if (stands) queue.push({kInfinity, 0, 0});  // The decision is the first.
   std::vector<Vec<Dim>> taken = request.planned;
   std::vector<RankedPlace<Dim>> ranked;
@@ -143,19 +284,20 @@ std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, co
     const bool close =
         std::any_of(taken.begin(), taken.end(), [&](const Vec<Dim>& p) { return (p - place).norm() < std::max(request.apart, 0.5 * grid.spacing); });
     if (close) continue;
-    const RaySums sums = rays(view, &left).look(place, directions);
+    const RaySums sums = ranking.look(place, ranking.weight());
+    const double better = ranking.mending.any() ? ranking.mending.area(place) : 0.0;
     if (entry.taken != ranked.size()) {  // Scores only fall as places are taken: the first that keeps its place is the best.
       const double way = request.among.empty() ? after_travel(grid.linear(grid.nearest(place))) : 1.0;  // As in the first scores.
-      queue.push({mix(sums) * way, entry.place, ranked.size()});
+      queue.push({ranking.score(sums, better) * way, entry.place, ranked.size()});
       continue;
     }
-    const double overlap = preview.overlap(place, directions);
-    if (sums.volume < least || overlap < request.overlap) continue;
-    const RaySums alone = rays(view, nullptr).look(place, directions);
+    const double overlap = ranking.preview.overlap(place, ranking.directions);
+    if ((sums.volume < least && better < least_mended) || overlap < request.overlap) continue;
+    const RaySums alone = ranking.look(place, nullptr), added = ranking.look(place, &ranking.unshown);
     const double score = entry.score < kInfinity ? entry.score : last_.front().second;
-    ranked.push_back({place, score, alone.volume, sums.volume, alone.area, overlap, way_to(place)});
+    ranked.push_back({place, score, alone.volume, added.volume, alone.area, overlap, way_to(place), better});
     taken.push_back(place);
-    if (static_cast<std::int64_t>(ranked.size()) < request.count) take(place);
+    if (static_cast<std::int64_t>(ranked.size()) < request.count) ranking.take(place);
   }
   return ranked;
 }
@@ -165,7 +307,8 @@ template <int Dim>
   requires SpatialDim<Dim>
 auto Planner<Dim>::first_of_best_pair(const BeliefView<Dim>& view, std::span<const Scored> scored) const -> const Scored& {
   const Grid<Dim>& grid = view.window();
-  const Preview<Dim> preview(view, opening_.openness(), opacity_, max_range_);
+  const Facing<Dim> facing({}, 0.0);
+  const Preview<Dim> preview(view, opening_.openness(), {opacity_, max_range_}, facing);
   const std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(kRays), seed_ * 1000003 + visited_.size());
   const std::size_t count = std::min(scored.size(), static_cast<std::size_t>(options_.look_ahead));
   std::size_t first = 0;

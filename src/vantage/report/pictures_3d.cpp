@@ -6,7 +6,7 @@
 #include "vantage/geometry/angle.h"
 #include "vantage/report/maps.h"
 #include "vantage/report/overlay.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/pictures_3d.h"
 #include "vantage/report/solids.h"
 #include "vantage/report/text.h"
 #include "vantage/report/unseen_faces.h"
@@ -66,24 +66,6 @@ Camera bird(const ReportInput<3>& input, const Box<3>& box) {
   return Camera::bird(box, outline(input, box), radians(azimuth), radians(38.0), {width, width * 7 / 10, 28.0});
 }
 
-/// Heights that leave out one in a hundred points at either end.
-std::pair<double, double> height_range(const ReportInput<3>& input) {
-  std::vector<double> heights;
-  const std::size_t stride = 8 * point_stride(input);
-  std::size_t index = 0;
-  for (const auto& points : input.scan_points) {
-    for (const Vec<3>& p : points) {
-      if (index++ % stride == 0 && input.domain.contains(p)) heights.push_back(p.z());
-    }
-  }
-  if (heights.empty()) return {input.domain.low.z(), input.domain.high.z()};
-  std::ranges::sort(heights);
-  const double low = heights[heights.size() / 100], high = heights[heights.size() - 1 - heights.size() / 100];
-  return {low, std::max(high, low + 1e-3)};
-}
-
-std::string height_text(double z) { return fmt::format("{:.1f}\u00a0m", std::abs(z) < 0.05 ? 0.0 : z); }
-
 double point_radius(const ReportInput<3>& input, const Camera& camera) {
   const double drawn = static_cast<double>(point_count(input) / point_stride(input)) + 1.0;
   return std::clamp(0.6 * std::sqrt(camera.width() * static_cast<double>(camera.height()) / drawn), 0.85, 3.0);
@@ -127,21 +109,6 @@ Figure surface_figure(const ReportInput<3>& input, const Camera& camera) {
   return figure;
 }
 
-/// The unseen over the surfaces: stronger where nothing stands before it.
-Image unseen_image(const Raster& surfaces, const Raster& unseen) {
-  Image image = resolved(surfaces, {0.8}), veil = resolved(unseen, {0.8});
-  for (int y = 0; y < veil.height; ++y) {
-    for (int x = 0; x < veil.width; ++x) {
-      const int sx = x * Raster::kSamples, sy = y * Raster::kSamples;
-      const bool hidden = !unseen.empty(sx, sy) && !surfaces.empty(sx, sy) && surfaces.distance(sx, sy) < unseen.distance(sx, sy);
-      std::uint8_t& alpha = veil.pixel(x, y)[3];
-      alpha = static_cast<std::uint8_t>(alpha * (hidden ? 0.5 : 0.82));
-    }
-  }
-  lay_over(image, veil);
-  return image;
-}
-
 Figure unseen_figure(const ReportInput<3>& input, const Camera& camera) {
   Raster surfaces(camera), unseen(camera);
   draw_patches(surfaces, input.patches, {input.domain, height_range(input), Colours::clay});
@@ -156,13 +123,6 @@ Figure unseen_figure(const ReportInput<3>& input, const Camera& camera) {
                                        counted(static_cast<std::int64_t>(input.verdict.unseen.size()), "region", "regions")),
                            {}});
   return figure;
-}
-
-/// Height of the plan's cut: that of the lowest vantage point, so that it runs through walls even where the scanner flies.
-double plan_height(const ReportInput<3>& input) {
-  double lowest = kInfinity;
-  for (const StepRecord<3>& step : input.steps) lowest = std::min(lowest, step.vantage.z());
-  return lowest;
 }
 
 Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
@@ -185,40 +145,44 @@ Figure path_figure(const ReportInput<3>& input, const Box<3>& box) {
   return figure;
 }
 
-/// The way to the best place, if any, and letters at all of them.
-std::string next_overlay(const ReportInput<3>& input, const Camera& camera) {
-  std::string tags;
-  for (std::size_t k = input.next.size(); k-- > 0;) {  // The best one on top.
-    const std::vector<Vec<3>> place{input.next[k].position};
-    for (const Vec<2>& pixel : on_picture<3>(place, camera)) tags += tag_overlay(pixel, std::string(1, static_cast<char>('A' + k % 26)));
-  }
-  return path_overlay(on_picture<3>(input.next.front().path, camera)) + tags;
-}
-
-/// A plan with the scans so far and the places to scan from next.
-Figure next_figure(const ReportInput<3>& input, const Box<3>& box) {
-  const Camera camera = Camera::map(box, map_frame(input.picture_width));
-  const double cut = plan_height(input), floor = height_range(input).first;
-  Raster raster(camera);
-  draw_plan(raster, input.patches, {input.domain, {floor - 1.0, floor}, Colours::clay}, {cut, 0.5 * input.state.window.spacing});
-  std::vector<Vec<3>> places;
-  std::vector<int> numbers;
-  for (const StepRecord<3>& step : input.steps) places.push_back(step.vantage), numbers.push_back(step.scan);
-  const RankedPlace<3>& best = input.next.front();
-  Figure figure{"next", "The next places on the map", {}, {}, {}};
-  figure.caption =
-      fmt::format("A, at {}, is the best place: it would show about {} that no scan has seen. The line is the way there from the last scan.",
-                  place_text<3>(best.position), quantity(best.new_volume, "m³"));
-  figure.legend = legend_entry("dot", "", "scan") + legend_entry("line", "", "way to A") + legend_entry("line", css(kSection), "wall at the cut");
-  figure.panels.push_back({resolved(raster, {0.0}),
-                           station_overlay(on_picture<3>(places, camera), numbers) + next_overlay(input, camera) +
-                               scale_overlay(1.0 / camera.pixel_size(1.0), camera.width(), camera.height()),
-                           "Plan of the place with the scans so far and the places to scan from next.",
-                           {}});
-  return figure;
-}
-
 }  // namespace
+
+std::pair<double, double> height_range(const ReportInput<3>& input) {
+  std::vector<double> heights;
+  const std::size_t stride = 8 * point_stride(input);
+  std::size_t index = 0;
+  for (const auto& points : input.scan_points) {
+    for (const Vec<3>& p : points) {
+      if (index++ % stride == 0 && input.domain.contains(p)) heights.push_back(p.z());
+    }
+  }
+  if (heights.empty()) return {input.domain.low.z(), input.domain.high.z()};
+  std::ranges::sort(heights);
+  const double low = heights[heights.size() / 100], high = heights[heights.size() - 1 - heights.size() / 100];
+  return {low, std::max(high, low + 1e-3)};
+}
+
+std::string height_text(double z) { return fmt::format("{:.1f}\u00a0m", std::abs(z) < 0.05 ? 0.0 : z); }
+
+Image unseen_image(const Raster& surfaces, const Raster& unseen) {
+  Image image = resolved(surfaces, {0.8}), veil = resolved(unseen, {0.8});
+  for (int y = 0; y < veil.height; ++y) {
+    for (int x = 0; x < veil.width; ++x) {
+      const int sx = x * Raster::kSamples, sy = y * Raster::kSamples;
+      const bool hidden = !unseen.empty(sx, sy) && !surfaces.empty(sx, sy) && surfaces.distance(sx, sy) < unseen.distance(sx, sy);
+      std::uint8_t& alpha = veil.pixel(x, y)[3];
+      alpha = static_cast<std::uint8_t>(alpha * (hidden ? 0.5 : 0.82));
+    }
+  }
+  lay_over(image, veil);
+  return image;
+}
+
+double plan_height(const ReportInput<3>& input) {
+  double lowest = kInfinity;
+  for (const StepRecord<3>& step : input.steps) lowest = std::min(lowest, step.vantage.z());
+  return lowest;
+}
 
 template <>
 std::vector<Figure> pictures(const ReportInput<3>& input) {
@@ -226,7 +190,7 @@ std::vector<Figure> pictures(const ReportInput<3>& input) {
   if (input.domain.empty()) return figures;
   const Box<3> box = contents(input);
   const Camera camera = bird(input, box);
-  if (!input.next.empty() && !input.steps.empty()) figures.push_back(next_figure(input, box));
+  for (Figure& figure : next_figures(input, box, camera)) figures.push_back(std::move(figure));
   if (point_count(input) > 0) figures.push_back(points_figure(input, camera));
   if (!input.patches.empty()) figures.push_back(surface_figure(input, camera));
   if (input.state.window.size() > 0) figures.push_back(unseen_figure(input, camera));

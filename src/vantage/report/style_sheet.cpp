@@ -14,10 +14,10 @@ std::string style_sheet() {
     --good: #5eccbc; --open: #f0a35e; --mark: #ff4d78; --halo: #0c0e13; }
 }
 @media (prefers-color-scheme: dark) {
-  #surface img, #unseen img, #path img, #known img { filter: brightness(.8); }
+  #surface img, #unseen img, #path img, #known img, #next img, #next-space img { filter: brightness(.8); }
   #points img { filter: brightness(1.3); }
-  #path .stage { background: #6f6e6b; }
-  #path .stage, #surface .stage { --mark: #d81b4a; --halo: #ffffff; --ink: #1d2430; }
+  #path .stage, #next .stage { background: #6f6e6b; }
+  #path .stage, #next .stage, #next-space .stage, #surface .stage { --mark: #d81b4a; --halo: #ffffff; --ink: #1d2430; }
 }
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; }
@@ -68,7 +68,15 @@ figcaption { margin-top: 14px; color: var(--soft); font-size: 15px; max-width: 6
 .key .diamond { width: 10px; height: 10px; background: #35d0c0; transform: rotate(45deg); border: 1px solid #0b1f28; }
 .key .cross { width: 15px; height: 15px; background: linear-gradient(#e5326a, #e5326a) center / 15px 3px no-repeat, linear-gradient(#e5326a,
   #e5326a) center / 3px 15px no-repeat; transform: rotate(45deg); }
+.key .rank { width: 16px; height: 16px; border-radius: 4px; background: #3f37b5; border: 1px solid #fff; }
+.key .dashes { width: 24px; height: 3px; background: repeating-linear-gradient(90deg, #3f37b5 0 7px, transparent 7px 12px); }
+.key .zone { border-radius: 4px; border: 2px dashed var(--z); background: color-mix(in srgb, var(--z) 22%, transparent); }
+.zone { fill: var(--z); fill-opacity: .2; fill-rule: evenodd; stroke: var(--z); stroke-width: 2; stroke-dasharray: 7 4; }
+.zone.out { --z: #c62828; } .zone.see { --z: #00897b; } .zone.sides { fill: none; stroke-width: 1.3; }
+.unseen { fill: #2c2680; font-size: 14px; font-weight: 600; text-anchor: middle; paint-order: stroke; stroke: #ffffff; stroke-width: 4px;
+  stroke-linejoin: round; }
 .way { fill: none; stroke: var(--mark); stroke-width: 2.4; stroke-linejoin: round; stroke-linecap: round; opacity: .9; }
+.way.tour { stroke: #3f37b5; stroke-dasharray: 9 6; stroke-width: 2.6; }
 .way.casing { stroke: var(--halo); stroke-width: 5; opacity: .65; }
 .dot { fill: var(--mark); stroke: #fff; stroke-width: 1.5; }
 .pin circle { fill: var(--mark); stroke: #fff; stroke-width: 2; }

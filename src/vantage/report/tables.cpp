@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "vantage/geometry/angle.h"
 #include "vantage/report/curves.h"
 #include "vantage/report/html.h"
 #include "vantage/report/maps.h"
@@ -56,6 +57,22 @@ std::string unseen_html(const Verdict<Dim>& verdict) {
                     region.open_from ? place_text<Dim>(*region.open_from) : "–"});
   }
   const auto split = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kListed, rows.size()));
+  html += table(columns, {rows.begin(), split});
+  if (split != rows.end()) html += details(fmt::format("{} more, smaller ones", rows.end() - split), table(columns, {split, rows.end()}));
+  return html + "</section>\n";
+}
+
+template <int Dim>
+std::string flat_html(const NextPlan<Dim>& plan, const char* unit) {
+  std::vector<std::vector<std::string>> rows;
+  for (const FlatRegion<Dim>& region : plan.flat)
+    rows.push_back({number(region.area), number(degrees(region.incidence)), size_text<Dim>(region.box), place_text<Dim>(region.box.center())});
+  const std::vector<std::string> columns{fmt::format(">Surface [{}]", unit), ">Mean angle [°]", "Size", "Around"};
+  const auto split = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kListed, rows.size()));
+  std::string html = fmt::format(
+      "<section id=\"flat\"><h2>What was only seen too flat</h2>\n<p class=\"note\">{} of known surface in all; the angle is "
+      "that between the best ray and the surface's normal.</p>\n",
+      quantity(plan.flat_area, unit));
   html += table(columns, {rows.begin(), split});
   if (split != rows.end()) html += details(fmt::format("{} more, smaller ones", rows.end() - split), table(columns, {split, rows.end()}));
   return html + "</section>\n";
@@ -168,6 +185,8 @@ std::string tables_html(const ReportInput<Dim>& input) {
 template <int Dim>
 std::string next_html(const ReportInput<Dim>& input) {
   std::string html;
+  const bool mends = input.plan.flat_area > 0.0;
+  const char* surface_unit = std::array{"m", "m²"}[Dim - 2];
   if (!input.next.empty()) {
     html += "<section id=\"next-places\"><h2>Where to scan next</h2>\n";
     std::vector<std::vector<std::string>> rows;
@@ -175,17 +194,22 @@ std::string next_html(const ReportInput<Dim>& input) {
       const RankedPlace<Dim>& place = input.next[k];
       double way = 0.0;
       for (std::size_t i = 1; i < place.path.size(); ++i) way += (place.path[i] - place.path[i - 1]).norm();
-      rows.push_back({std::string(1, static_cast<char>('A' + k % 26)), escaped(place_text<Dim>(place.position)),
+      rows.push_back({number(static_cast<std::int64_t>(k + 1)), escaped(place_text<Dim>(place.position)),
                       quantity(place.new_volume, volume_unit<Dim>()), quantity(place.added_volume, volume_unit<Dim>()), percent(place.overlap),
                       quantity(way, "m")});
+      if (mends) rows.back().push_back(quantity(place.mended, surface_unit));
     }
     const std::string word(volume_word<Dim>());
-    html += table({"", "Place", ">New " + word, ">Beyond the better ones", ">Known in view", ">Way"}, rows);
+    std::vector<std::string> columns{">Rank", "Place", ">New " + word, ">Beyond the better ones", ">Known in view", ">Way"};
+    if (mends) columns.push_back(">Seen better");
+    html += table(columns, rows);
     html += "<p class=\"note\">Best first. New " + word +
             " is what the place is expected to show; the next column leaves out what the places above it will have shown. Known in view: the share "
             "of known "
-            "surface in what is seen from there, to register the scan by.</p>\n</section>\n";
+            "surface in what is seen from there, to register the scan by." +
+            (mends ? " Seen better: surface that was only seen too flat and would be faced." : "") + "</p>\n</section>\n";
   }
+  if (!input.plan.flat.empty()) html += flat_html<Dim>(input.plan, surface_unit);
   if (input.notes.empty()) return html;
   html += "<section id=\"notes\"><h2>What was assumed</h2>\n<ul>\n";
   for (const std::string& note : input.notes) html += "<li>" + escaped(note) + "</li>\n";

@@ -18,15 +18,6 @@ namespace fs = std::filesystem;
 constexpr double kBeyond = 1.5;      // Times the range of all but these: farther ones are left out.
 constexpr double kFarShare = 0.001;  // Of the points that may lie beyond the range: strays and mixed pixels.
 
-/// World axes from file axes, proper rotations all.
-Eigen::Matrix3d upright(MeasuredOptions::Up up) {
-  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
-  if (up == MeasuredOptions::Up::x) r << 0, 1, 0, 0, 0, 1, 1, 0, 0;
-  if (up == MeasuredOptions::Up::y) r << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  if (up == MeasuredOptions::Up::down) r << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  return r;
-}
-
 /// A scan of a file and the file it is from.
 struct Loaded {
   MeasuredScan scan;
@@ -118,6 +109,14 @@ std::optional<RayOrder> order_of(const MeasuredScan& scan, MeasuredOptions::NoRe
 }
 
 }  // namespace
+
+Eigen::Matrix3d upright(MeasuredOptions::Up up) {
+  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+  if (up == MeasuredOptions::Up::x) r << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  if (up == MeasuredOptions::Up::y) r << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  if (up == MeasuredOptions::Up::down) r << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  return r;
+}
 
 void describe(MeasuredOptions& o, const OptionVisitor& visit) {
   visit("unit", o.unit, "m", Range{1e-6, 1e6}, "metres per unit of the files and of a list of poses");

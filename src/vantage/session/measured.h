@@ -28,6 +28,9 @@ struct MeasuredOptions {
 
 void describe(MeasuredOptions& options, const OptionVisitor& visit);
 
+/// World axes from file axes, proper rotations all.
+[[nodiscard]] Eigen::Matrix3d upright(MeasuredOptions::Up up);
+
 /// Where the scans of the files were taken, if the files shall not say it.
 struct GivenPoses {
   std::filesystem::path list;  ///< poses.h; in the order of the scans, or by the names of the files.

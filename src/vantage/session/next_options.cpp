@@ -6,17 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "vantage/base/error.h"
-#include "vantage/planner/candidates.h"
-#include "vantage/planner/ground.h"
+#include "vantage/session/next_zones.h"
 #include "vantage/session/suggest.h"
 
 namespace vantage {
 namespace {
-
-constexpr double kGroundReach = 6.0;  // Of ground that says how high a scanner stood: below it a scanner sees nothing [m].
 
 std::vector<double> parse_list(const Setting& setting) {
   std::vector<double> numbers;
@@ -33,8 +29,6 @@ std::vector<double> parse_list(const Setting& setting) {
 
 std::vector<double>* list_of(NextOptions& options, std::string_view name) {
   if (name == "next.domain") return &options.domain;
-  if (name == "next.keep_out") return &options.keep_out;
-  if (name == "next.must_see") return &options.must_see;
   if (name == "next.among") return &options.among;
   return name == "next.planned" ? &options.planned : nullptr;
 }
@@ -52,6 +46,10 @@ void apply_to(Options& options, std::string_view stage, const Setting& setting) 
 void apply_one(NextSetup& setup, const Setting& setting) {
   if (std::vector<double>* list = list_of(setup.next, setting.name)) {
     *list = parse_list(setting);
+  } else if (setting.name == "next.keep_out") {
+    setup.next.keep_out = setting.value;
+  } else if (setting.name == "next.must_see") {
+    setup.next.must_see = setting.value;
   } else if (setting.name.starts_with("next.")) {
     apply_to(setup.next, "next", setting);
   } else if (setting.name.starts_with("measured.")) {
@@ -65,98 +63,6 @@ void apply_one(NextSetup& setup, const Setting& setting) {
   }
 }
 
-template <int Dim>
-std::vector<Box<Dim>> boxes_of(std::span<const double> numbers) {
-  const std::vector<Vec<Dim>> corners = places_of<Dim>(numbers);
-  std::vector<Box<Dim>> boxes;
-  for (std::size_t k = 0; k + 1 < corners.size(); k += 2) boxes.push_back({corners[k], corners[k + 1]});
-  return boxes;
-}
-
-/// What face steps join to the node nearest to `from`.
-template <int Dim>
-Field<Dim, std::uint8_t> joined(const Field<Dim, std::uint8_t>& nodes, const Vec<Dim>& from) {
-  const Grid<Dim>& grid = nodes.window;
-  std::size_t first = grid.size();
-  double nearest = kInfinity;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const double distance = nodes[i] != 0 ? (grid.position(i) - from).squaredNorm() : kInfinity;
-    if (distance < nearest) nearest = distance, first = i;
-  }
-  Field<Dim, std::uint8_t> found(grid);
-  if (first == grid.size()) return found;
-  std::vector<std::size_t> queue{first};
-  found[first] = 1;
-  for (std::size_t k = 0; k < queue.size(); ++k)
-    for (int side = 0; side < 2 * Dim; ++side) {
-      Index<Dim> next = grid.local(queue[k]);
-      next[side / 2] += side % 2 == 0 ? -1 : 1;
-      if (!grid.inside(next) || nodes.at(next) == 0 || found.at(next) != 0) continue;
-      found.at(next) = 1;
-      queue.push_back(grid.linear(next));
-    }
-  return found;
-}
-
-void note_once(std::vector<std::string>& notes, const std::string& note) {
-  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
-}
-
-/// The rule while scans come: it learns from them how high the scanner stands.
-template <int Dim>
-class Rule {
- public:
-  Rule(const NextOptions& options, double clearance, bool measured, std::vector<std::string>& notes)
-      : options_(options), clearance_(clearance), boxes_(boxes_of<Dim>(options.keep_out)), notes_(&notes) {
-    using Stand = NextOptions::Stand;
-    const bool asked = options.stand == Stand::ground || options.height > 0.0;
-    ground_ = asked || (options.stand == Stand::scans && measured);
-    must_ = asked;
-  }
-  [[nodiscard]] bool on_ground() const { return ground_; }
-
-  Field<Dim, std::uint8_t> operator()(const BeliefView<Dim>& view, const Vec<Dim>& here) {
-    Field<Dim, std::uint8_t> nodes = ground_ ? on_ground(view, here) : reachable_nodes(view, here, clearance_);
-    if (boxes_.empty()) return nodes;
-    for (std::size_t i = 0; i < nodes.values.size(); ++i) {
-      const Vec<Dim> p = nodes.window.position(i);
-      if (std::any_of(boxes_.begin(), boxes_.end(), [&](const Box<Dim>& box) { return box.contains(p); })) nodes[i] = 0;
-    }
-    return joined(nodes, here);
-  }
-
- private:
-  Field<Dim, std::uint8_t> on_ground(const BeliefView<Dim>& view, const Vec<Dim>& here) {
-    const double height = height_at(view, here);
-    if (height < kInfinity) {
-      const double slope = sin_cos(radians(options_.slope))[0] / sin_cos(radians(options_.slope))[1];
-      Field<Dim, std::uint8_t> nodes = walkable_nodes<Dim>(view, here, {height, clearance_, options_.step, slope});
-      const bool any = std::find(nodes.values.begin(), nodes.values.end(), 1) != nodes.values.end();
-      if (any || must_) return nodes;
-    }
-    require(!must_ || height < kInfinity, "no ground is seen below the scanner: --height says how high it stands");
-    note_once(*notes_, "No ground to walk on was found near the last scan: places anywhere in the seen space.");
-    return reachable_nodes(view, here, clearance_);
-  }
-  /// As asked for, or the median of the scans so far.
-  double height_at(const BeliefView<Dim>& view, const Vec<Dim>& here) {
-    if (options_.height > 0.0) return options_.height;
-    const double height = height_above_ground(view, here, kGroundReach);
-    if (height < kInfinity && height > 0.1) heights_.push_back(height);
-    if (heights_.empty()) return kInfinity;
-    std::vector<double> sorted = heights_;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2];
-  }
-
-  NextOptions options_;
-  double clearance_;
-  std::vector<Box<Dim>> boxes_;
-  std::vector<std::string>* notes_;
-  std::vector<double> heights_;
-  bool ground_ = false, must_ = false;
-};
-
 }  // namespace
 
 void describe(NextOptions& o, const OptionVisitor& visit) {
@@ -168,6 +74,8 @@ void describe(NextOptions& o, const OptionVisitor& visit) {
   visit("step", o.step, "m", Range{0.0, 10.0}, "highest step that is walked over");
   visit("apart", o.apart, "m", Range{0.0, 1e4}, "least distance between places of the list; 0: four cells, 1 m at least");
   visit("overlap", o.overlap, "", Range{0.0, 1.0}, "least share of known surface in view, to register the scan by");
+  visit("incidence_deg", o.incidence, "deg", Range{1.0, 90.0},
+        "largest angle between a ray and the normal of what it meets: flatter, nothing new counts, and known surface is to be seen again; 90: any");
   visit("margin", o.margin, "m", Range{0.0, 1e4}, "of the domain around the points; 0: two cells");
 }
 
@@ -205,13 +113,6 @@ std::string settings_as_toml(std::span<const Setting> settings) {
 }
 
 template <int Dim>
-StationRule<Dim> station_rule(const NextOptions& options, double clearance, bool measured, std::vector<std::string>& notes) {
-  const auto rule = std::make_shared<Rule<Dim>>(options, clearance, measured, notes);
-  if (!rule->on_ground() && options.keep_out.empty()) return {};
-  return {[rule](const BeliefView<Dim>& view, const Vec<Dim>& here) { return (*rule)(view, here); }, rule->on_ground()};
-}
-
-template <int Dim>
 std::vector<Vec<Dim>> places_of(std::span<const double> numbers) {
   std::vector<Vec<Dim>> places;
   for (std::size_t k = 0; k + Dim <= numbers.size(); k += Dim) places.push_back(Eigen::Map<const Vec<Dim>>(&numbers[k]));
@@ -222,20 +123,36 @@ template <int Dim>
 void check_lists(const NextOptions& options) {
   const auto check = [](const std::vector<double>& numbers, std::size_t each, const char* name) {
     require(numbers.size() % each == 0, fmt::format("{} numbers: {} each are wanted", numbers.size(), each), name);
-    if (each == 2 * Dim)
-      for (const Box<Dim>& box : boxes_of<Dim>(numbers)) require(!box.empty(), "the low corner must come first, then the high one", name);
   };
   check(options.domain, 2 * Dim, "--domain");
   require(options.domain.size() <= 2 * Dim, "one box", "--domain");
-  check(options.keep_out, 2 * Dim, "--keep-out");
-  check(options.must_see, 2 * Dim, "--must-see");
+  const std::vector<Vec<Dim>> corners = places_of<Dim>(options.domain);
+  require(corners.empty() || !Box<Dim>{corners[0], corners[1]}.empty(), "the low corner must come first, then the high one", "--domain");
   check(options.among, Dim, "--among");
   check(options.planned, Dim, "--planned");
+  static_cast<void>(zones_of<Dim>(options.keep_out, "--keep-out"));
+  static_cast<void>(zones_of<Dim>(options.must_see, "--must-see"));
 }
 
-#define VANTAGE_INSTANTIATE(D)                                                                          \
-  template StationRule<D> station_rule<D>(const NextOptions&, double, bool, std::vector<std::string>&); \
-  template std::vector<Vec<D>> places_of<D>(std::span<const double>);                                   \
+template <int Dim>
+void require_met(const NextOptions& options, const Box<Dim>& domain, std::span<const Setting> settings) {
+  const std::pair<const char*, const std::string&> lists[] = {{"next.keep_out", options.keep_out}, {"next.must_see", options.must_see}};
+  for (const auto& [name, text] : lists) {
+    const auto given = std::find_if(settings.begin(), settings.end(), [&](const Setting& setting) { return setting.name == name; });
+    if (given == settings.end()) continue;
+    for (const Zone& zone : zones_of<Dim>(text, given->where)) {
+      const Vec<2> low = zone.bounds().low, high = zone.bounds().high;
+      require(zone.template meets<Dim>(domain),
+              fmt::format("the zone from {:g},{:g} to {:g},{:g} lies outside of the domain, {:g} .. {:g}", low.x(), low.y(), high.x(), high.y(),
+                          fmt::join(domain.low.data(), domain.low.data() + Dim, ","), fmt::join(domain.high.data(), domain.high.data() + Dim, ",")),
+              given->where);
+    }
+  }
+}
+
+#define VANTAGE_INSTANTIATE(D)                                                               \
+  template void require_met<D>(const NextOptions&, const Box<D>&, std::span<const Setting>); \
+  template std::vector<Vec<D>> places_of<D>(std::span<const double>);                        \
   template void check_lists<D>(const NextOptions&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)

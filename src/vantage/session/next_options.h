@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "vantage/planner/planner.h"
 #include "vantage/session/measured.h"
 #include "vantage/session/scenario.h"
 
@@ -18,17 +16,18 @@ struct NextOptions {
   /// Where the scanner stands: on walkable ground, anywhere in the seen space, or as the scans were taken: of a person's scans on the ground, if
   /// ground is found below them, of simulated ones anywhere.
   enum class Stand { scans, ground, air } stand = Stand::scans;
-  double height = 0.0;           ///< Above the ground [m]; 0: as the scans were taken.
-  double slope = 30.0;           ///< Steepest ground [deg].
-  double step = 0.2;             ///< Highest step [m].
-  double apart = 0.0;            ///< Between places of the list [m]; 0: four cells, but 1 m at least.
-  double overlap = 0.0;          ///< Least share of known surface in view [1].
-  double margin = 0.0;           ///< Of the domain around the points [m]; 0: two cells.
-  std::vector<double> domain;    ///< Low corner, high corner [m]; empty: around the points.
-  std::vector<double> keep_out;  ///< Boxes where no scanner may stand or pass: low corner, high corner, one after the other [m].
-  std::vector<double> must_see;  ///< Boxes that count ten times.
-  std::vector<double> among;     ///< Only these places come into question, one after the other [m]; empty: all that can be reached.
-  std::vector<double> planned;   ///< Stations already planned, one after the other [m].
+  double height = 0.0;          ///< Above the ground [m]; 0: as the scans were taken.
+  double slope = 30.0;          ///< Steepest ground [deg].
+  double step = 0.2;            ///< Highest step [m].
+  double apart = 0.0;           ///< Between places of the list [m]; 0: four cells, but 1 m at least.
+  double overlap = 0.0;         ///< Least share of known surface in view [1].
+  double incidence = 90.0;      ///< Between ray and normal: what is met flatter does not count as seen well [deg].
+  double margin = 0.0;          ///< Of the domain around the points [m]; 0: two cells.
+  std::vector<double> domain;   ///< Low corner, high corner [m]; empty: around the points.
+  std::vector<double> among;    ///< Only these places come into question, one after the other [m]; empty: all that can be reached.
+  std::vector<double> planned;  ///< Stations already planned, one after the other [m].
+  std::string keep_out;         ///< Zones where no scanner may stand or pass (next_zones.h).
+  std::string must_see;         ///< Zones where what is hidden counts ten times.
 };
 
 void describe(NextOptions& options, const OptionVisitor& visit);
@@ -47,17 +46,16 @@ struct NextSetup {
 /// `next.toml`: the settings that a folder keeps, all but those of `measured`, the last of each name.
 [[nodiscard]] std::string settings_as_toml(std::span<const Setting> settings);
 
-/// Where a scanner may be put by these options; none: wherever the planner says. `measured`: the scans are a person's. What had to be assumed is
-/// added to `notes`, which must outlive the rule.
-template <int Dim>
-[[nodiscard]] StationRule<Dim> station_rule(const NextOptions& options, double clearance, bool measured, std::vector<std::string>& notes);
-
 /// Places out of a list of numbers.
 template <int Dim>
 [[nodiscard]] std::vector<Vec<Dim>> places_of(std::span<const double> numbers);
 
-/// Throws bad_input unless the lists of the options hold whole places and boxes of that dimension.
+/// Throws bad_input unless the lists of the options hold whole places, boxes and zones of that dimension.
 template <int Dim>
 void check_lists(const NextOptions& options);
+
+/// Throws bad_input for a zone that `settings` name and that has no place in common with the domain.
+template <int Dim>
+void require_met(const NextOptions& options, const Box<Dim>& domain, std::span<const Setting> settings);
 
 }  // namespace vantage

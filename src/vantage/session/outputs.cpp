@@ -16,7 +16,6 @@
 #include "vantage/io/patch_file.h"
 #include "vantage/io/point_cloud_file.h"
 #include "vantage/io/vti.h"
-#include "vantage/report/report.h"
 #include "vantage/session/run_folder.h"
 #include "vantage/session/scenario_file.h"
 
@@ -173,6 +172,7 @@ void save_report(Folder& folder, const RunOutputs<Dim>& run, std::vector<std::ve
       .verdict = verdict_of(run),
       .surface = run.explorer.surface().statistics(),
       .next = run.next == nullptr ? std::vector<RankedPlace<Dim>>() : run.next->ranked,
+      .plan = run.next == nullptr ? NextPlan<Dim>() : run.next->plan,
       .notes = run.next == nullptr ? std::vector<std::string>() : run.next->notes};
   folder.write(run_file::kReport, render_report<Dim>(input));
 }

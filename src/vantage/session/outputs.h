@@ -4,6 +4,7 @@
 
 #include "vantage/base/progress.h"
 #include "vantage/explore/explore.h"
+#include "vantage/report/report.h"
 #include "vantage/session/result.h"
 #include "vantage/session/scan_log.h"
 #include "vantage/session/scenario.h"
@@ -15,6 +16,7 @@ template <int Dim>
 struct NextFigures {
   std::vector<RankedPlace<Dim>> ranked;
   Verdict<Dim> verdict;
+  NextPlan<Dim> plan;
   std::vector<std::string> notes;  ///< What was assumed.
   Json inputs;                     ///< Files of the scans, for the manifest.
 };

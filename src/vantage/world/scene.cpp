@@ -147,6 +147,7 @@ AnyScene make_scene(std::string_view spec, const SceneFileOptions& options) {
   const std::string_view name = spec.substr(0, spec.find(':'));
   const Generator* generator = find_generator(name);
   require(!generator || options.ground == -kInfinity, "scene.ground: of mesh files; a built-in scene has its own", std::string(name));
+  require(!generator || options.detail < 0.0, "scene.detail: of city models (CityJSON, CityGML); a built-in scene has no levels", std::string(name));
   if (generator) return generate(*generator, spec);
   if (names_file(spec)) return load_scene_file(spec, options);
   throw Error(ErrorCode::bad_input, fmt::format("scene '{}': neither a file nor one of {}{}", name, join_names(scene_list()), did_you_mean(name)));

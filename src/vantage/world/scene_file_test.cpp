@@ -241,6 +241,9 @@ TEST(SceneFile, GroundIsAddedWhereAskedFor) {
   SceneFileOptions options;
   options.ground = 0.0;
   EXPECT_THAT(error_of([&] { (void)make_scene("town", options); }), HasSubstr("a built-in scene has its own"));
+  options = {};
+  options.detail = 1.0;
+  EXPECT_THAT(error_of([&] { (void)make_scene("town", options); }), HasSubstr("scene.detail: of city models"));
 }
 
 }  // namespace

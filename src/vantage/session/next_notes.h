@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+#include <string>
+
+#include "vantage/session/measured.h"
+#include "vantage/session/result.h"
+
+namespace vantage {
+
+/// "1.00, 2.00, 1.50"
+[[nodiscard]] std::string place_text(const Vec<3>& p);
+
+/// One line on a scan that was read: points, place, what was left out.
+[[nodiscard]] std::string input_line(const MeasuredInput& input);
+/// The same for the manifest.
+[[nodiscard]] Json input_json(const MeasuredInput& input);
+
+/// What the directions without a hit were taken for.
+[[nodiscard]] std::string no_return_note(std::span<const MeasuredInput> inputs, const MeasuredOptions& options);
+/// What the filter took out, by which rule.
+[[nodiscard]] std::string filter_note(std::span<const MeasuredInput> inputs, const FilterOptions& options);
+
+}  // namespace vantage
