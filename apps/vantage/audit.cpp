@@ -48,7 +48,7 @@ void add_flags(CommandParser& parser, Flags& flags) {
   parser.flag("--scene-start", flags.scene_start, "the first start is the scene's own", what);
   std::string names;
   for (const Variant& variant : built_in_variants()) names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", variant.name, variant.what);
-  parser.option("--variants", flags.variants, "A,B", names + "; all; none (default all; of a run folder optimistic,sight)", what);
+  parser.option("--variants", flags.variants, "A,B", names + "; all (but octomap); none (default all; of a run folder optimistic,sight)", what);
   several("--variant", flags.own, "NAME=STAGE.OPTION=VALUE,..", "one more of your own (several: --variant A=… --variant B=…)");
   several("--set", flags.sets, "STAGE.OPTION=VALUE", "an option of every run; vantage config dump lists them");
   parser.option("--voxel", flags.voxel, "METRES", "lattice spacing of every run (default: the scene's)", what);
@@ -138,8 +138,6 @@ int play(const Flags& flags) {
   require(flags.truth.empty(), "--truth: only of a run folder");
   const AuditPlan plan = plan_of(flags, false);
   require(!plan.variants.empty(), "no variant is named", "--variants");
-  const bool all = flags.variants == "all" || (flags.variants.empty() && flags.own.empty());
-  if (all && !flags.quiet && !left_out().empty()) fmt::print(stderr, "vantage: {}\n", left_out());
   AuditProgress progress(flags.quiet);
   const AuditOutcome outcome = play_audit(plan, progress);
   progress.finish();

@@ -68,8 +68,6 @@ void add(std::vector<Variant>& chosen, const Variant& variant, const std::string
 
 }  // namespace
 
-std::string left_out() { return vantage::has_octomap() ? "" : "octomap is left out: this build has no OctoMap (liboctomap-dev)"; }
-
 const std::vector<Variant>& built_in_variants() {
   static const std::vector<Variant> all{
       variant("default", "the planner as it stands", ""),
@@ -91,7 +89,7 @@ const std::vector<Variant>& built_in_variants() {
 std::vector<Variant> chosen_variants(const std::string& names, const std::vector<std::string>& own) {
   const std::vector<Variant>& all = built_in_variants();
   std::vector<Variant> chosen;
-  if (names == "all") std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), playable);
+  if (names == "all") std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), [](const Variant& v) { return !v.information_gain; });
   const bool listed = names != "all" && names != "none";
   for (const std::string& name : listed ? split(names) : std::vector<std::string>{}) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Variant& v) { return v.name == name; });

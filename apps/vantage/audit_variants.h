@@ -15,9 +15,6 @@ struct Variant {
 /// The default and the baselines; one more is a line of this table.
 [[nodiscard]] const std::vector<Variant>& built_in_variants();
 
-/// Why `all` leaves a built-in variant out of this build; empty if it leaves none.
-[[nodiscard]] std::string left_out();
-
 /// The built-in ones named in `names` (between commas; `all`: every one this build can play; `none`), then those of `own`, each
 /// NAME=stage.option=value,stage.option=value. Throws bad_input for unknown or repeated names, one this build cannot
 /// play, wrong options, and options that would change what the

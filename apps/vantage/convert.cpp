@@ -261,8 +261,7 @@ int convert_command(const Arguments& arguments) {
                 "coordinates become multiples of it (.las; 1e-9 .. 1000; default 0.0001, or the finest power of ten that fits the extent)", "Points");
   parser.option("--las", flags.las, "VERSION", "1.2 or 1.4 (default: 1.2, and 1.4 for more than 4,294,967,295 points)", "Points");
   parser.option("--scan", flags.scan, "K", "only this scan, counted from 0 as in stations.csv", "Points");
-  parser.option("--crs", flags.crs, "EPSG:CODE", "projected coordinate system of the numbers (.las, .geojson; default: that of the file)",
-                "Points");
+  parser.option("--crs", flags.crs, "EPSG:CODE", "projected coordinate system of the numbers (.las, .geojson; default: that of the file)", "Points");
   parser.option("--array", flags.array, "NAME", "which array of a field (.vti, .npy, .bt; default: all, the only one, state)", "Fields");
   parser.flag("--force", flags.force, "replace OUT", "Output");
   parser.flag("--json", flags.json, "print what was written as JSON", "Output");

@@ -86,7 +86,7 @@ inline std::string dae() {
 inline std::string gltf_buffer() {
   std::string out;
   for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 1.F, 1.F, 0.F, 0.F, 0.F, 1.F, 1.F, 0.F, 1.F}) put(out, v);
-  for (const std::uint16_t i : {0, 1, 2, 3, 4, 5}) put(out, i);
+  for (std::uint16_t i = 0; i < 6; ++i) put(out, i);
   return out;
 }
 inline std::string gltf(const std::string& buffer) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "vantage/base/error.h"
 #include "vantage/io/text.h"
@@ -12,6 +13,7 @@
 namespace vantage {
 namespace {
 
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kForms =
     "must be a box x0,y0,z0,x1,y1,z1, a polygon \"x,y x,y x,y\", or a file .geojson, .json, .csv, .txt; behind a polygon or a file z=LOW..HIGH";
 
@@ -32,10 +34,10 @@ std::vector<std::string> parts_of(std::string_view text, char separator) {
 
 double number_of(const std::string& word, const std::string& where) {
   const bool clean = !word.empty() && word.find_first_not_of("0123456789+-.eE") == std::string::npos;
-  const std::optional<double> value = clean ? leading_number(word) : std::nullopt;
-  require(value.has_value(), fmt::format("{}: {}", printable(word), kForms), where);
-  require(std::isfinite(*value), fmt::format("{}: must be finite", printable(word)), where);
-  return *value;
+  const double value = clean ? leading_number(word).value_or(kNoNumber) : kNoNumber;
+  require(!std::isnan(value), fmt::format("{}: {}", printable(word), kForms), where);
+  require(std::isfinite(value), fmt::format("{}: must be finite", printable(word)), where);
+  return value;
 }
 
 std::vector<double> numbers_of(const std::string& text, const std::string& where) {

@@ -83,7 +83,7 @@ TEST(NextZones, FilesHoldPolygons) {
 }
 
 TEST(NextZones, ErrorsNameThePlace) {
-  EXPECT_THAT(error_of([] { return parse_geojson_zones("{\"type\":", "f"); }), HasSubstr("f:9: not JSON"));
+  EXPECT_THAT(error_of([] { return parse_geojson_zones("{\"type\":", "f"); }), HasSubstr("f:8: not JSON"));
   EXPECT_THAT(error_of([] { return parse_geojson_zones("[]", "f"); }), HasSubstr("f:/: must be an object"));
   EXPECT_THAT(error_of([] { return parse_geojson_zones(R"({"type":"Polygon"})", "f"); }), HasSubstr("has no \"coordinates\""));
   EXPECT_THAT(error_of([] { return parse_geojson_zones(R"({"type":"Polygon","coordinates":[[[0,0],[9,0]]]})", "f"); }),

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "vantage/geometry/angle.h"
 #include "vantage/io/bytes.h"
 #include "vantage/session/scan_log.h"
 
@@ -13,7 +14,8 @@ namespace vantage::samples {
 template <int Dim>
 std::string scan_log() {
   Scan<Dim> scan;
-  scan.pattern.step = scan.pattern.horizontal_fov / 4;
+  scan.pattern.step = radians(20);
+  scan.pattern.horizontal_fov = 4 * scan.pattern.step;
   scan.pattern.vertical_fov = scan.pattern.step;
   scan.ranges.assign(static_cast<std::size_t>(scan.pattern.columns()) * static_cast<std::size_t>(scan.pattern.template rows<Dim>()), 2.5F);
   scan.ranges.front() = kNoReturn;

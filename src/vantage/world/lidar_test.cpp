@@ -151,7 +151,7 @@ TYPED_TEST(Lidar, StandsOffWhereItSaysAsFarAsAsked) {
     const double off = 0.5 * (along(scan.ranges, -1) - along(scan.ranges, 1));
     sum += off / kScans;
     squares += off * off / kScans;
-    if (index < 3) EXPECT_TRUE(same_bits(scan.ranges, again.scan(Vec<Dim>::Zero(), index).ranges));
+    EXPECT_TRUE(index >= 3 || same_bits(scan.ranges, again.scan(Vec<Dim>::Zero(), index).ranges));
   }
   EXPECT_NEAR(sum, 0.0, 4 * 0.1 / std::sqrt(kScans));
   EXPECT_NEAR(std::sqrt(squares), 0.1, 4 * 0.1 / std::sqrt(2.0 * kScans));
