@@ -15,7 +15,7 @@ using namespace vantage;
 
 namespace {
 
-constexpr std::int64_t kBatch = 16;       // Played at a time.
+constexpr std::int64_t kBatch = 64;       // Played at a time.
 constexpr std::int64_t kKeepEvery = 128;  // Scenes between two writings of the folder.
 constexpr const char* kFile = "generated.json";
 

@@ -97,6 +97,27 @@ TYPED_TEST(PathsTest, PathsAreSafeAndNearlyShortest) {
   EXPECT_GE(bent, 6);
 }
 
+/// Among scattered holes: not even a corner of a cell that may not be stood in is cut.
+TYPED_TEST(PathsTest, PathsCutNoCorners) {
+  constexpr int Dim = TypeParam::value;
+  std::size_t pieces = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Random random(seed);
+    Field<Dim, std::uint8_t> reachable(Grid<Dim>{1.0, Index<Dim>::Zero(), Index<Dim>::Constant(Dim == 2 ? 60 : 24)});
+    for (std::size_t i = 0; i < reachable.values.size(); ++i) reachable[i] = random.uniform(0.0, 1.0) < 0.97;
+    const std::size_t last = reachable.window.size() - 1;
+    reachable[0] = reachable[last] = 1;
+    const auto path = safe_path<Dim>(reachable, last, Vec<Dim>::Zero());
+    for (std::size_t i = 1; i < path.size(); ++i, ++pieces) {
+      const Vec<Dim> way = path[i] - path[i - 1];
+      const auto samples = static_cast<int>(way.norm() * 500.0);
+      for (int k = 0; k <= samples; ++k)
+        ASSERT_NE(reachable.at(reachable.window.nearest(path[i - 1] + way * (static_cast<double>(k) / std::max(1, samples)))), 0) << seed;
+    }
+  }
+  EXPECT_GT(pieces, 60U);
+}
+
 TYPED_TEST(PathsTest, NoWayNoPath) {
   constexpr int Dim = TypeParam::value;
   Field<Dim, std::uint8_t> reachable(Grid<Dim>{1.0, Index<Dim>::Zero(), Index<Dim>::Constant(9)}, 1);

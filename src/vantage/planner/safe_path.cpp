@@ -114,16 +114,37 @@ class Search {
   std::size_t waiting_ = 0;
 };
 
-/// True if every node nearest to the samples of the straight line is reachable.
+/// True if every cell that the straight line between two nodes touches is reachable; a node's cell is the cube around it. Exact: in cells, times the
+/// steps along an axis, all places where the line goes from one cell to the next are odd numbers over twice a step count.
 template <int Dim>
 bool clear_line(const Field<Dim, std::uint8_t>& reachable, std::size_t from, std::size_t to) {
-  const Vec<Dim> a = reachable.window.local(from).template cast<double>(), b = reachable.window.local(to).template cast<double>();
-  const auto samples = static_cast<int>(std::ceil((b - a).norm() / 0.2));
-  for (int i = 0; i <= samples; ++i) {
-    const Vec<Dim> p = a + (b - a) * (static_cast<double>(i) / std::max(samples, 1)) + Vec<Dim>::Constant(0.5);
-    Index<Dim> node;
-    for (int k = 0; k < Dim; ++k) node[k] = static_cast<std::int32_t>(p[k]);
-    if (reachable.at(node) == 0) return false;
+  const Grid<Dim>& grid = reachable.window;
+  Index<Dim> cell = grid.local(from);
+  const Index<Dim> end = grid.local(to), sign = (end - cell).cwiseSign();
+  std::array<std::int64_t, Dim> steps, done{};  // Along each axis.
+  for (std::size_t a = 0; a < Dim; ++a) steps[a] = std::abs(end[static_cast<int>(a)] - cell[static_cast<int>(a)]);
+  if (reachable.at(cell) == 0) return false;
+  while (cell != end) {
+    // The axes whose next border is met first: border k of n is at (2 k + 1) / (2 n) of the way.
+    int first = -1;
+    unsigned axes = 0;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      if (done[a] == steps[a]) continue;
+      const auto f = static_cast<std::size_t>(first);
+      const std::int64_t later = first < 0 ? -1 : (2 * done[a] + 1) * steps[f] - (2 * done[f] + 1) * steps[a];
+      if (later < 0) first = static_cast<int>(a), axes = 0;
+      if (later <= 0) axes |= 1U << a;
+    }
+    for (unsigned some = axes; some != 0; some = (some - 1) & axes) {  // Through an edge or a corner all cells around it are touched.
+      Index<Dim> touched = cell;
+      for (int a = 0; a < Dim; ++a) touched[a] += (some >> a & 1U) != 0 ? sign[a] : 0;
+      if (reachable.at(touched) == 0) return false;
+    }
+    for (std::size_t a = 0; a < Dim; ++a) {
+      if ((axes >> a & 1U) == 0) continue;
+      cell[static_cast<int>(a)] += sign[static_cast<int>(a)];
+      ++done[a];
+    }
   }
   return true;
 }
