@@ -16,6 +16,7 @@
 #include "vantage/io/octomap.h"
 #include "vantage/io/patch_file.h"
 #include "vantage/io/scan_writer.h"
+#include "vantage/io/vdb.h"
 #include "vantage/session/result.h"
 #include "vantage/session/run_folder.h"
 
@@ -29,8 +30,8 @@ constexpr const char* kPurpose =
     "feet, and large coordinates keep their digits.\n\n"
     "  scans    any file that info reads, a scan log or a run folder   to .ply .pcd .las .xyz .csv .geojson (stations and path)\n"
     "  surface  the .ply of reconstruct, or another of convex faces    to .ply .obj .glb\n"
-    "  field    a .vti of a run or of visibility                       to .vti .npy .bt (OctoMap: free, occupied, unknown)\n\n"
-    "Of a run folder, .obj and .glb take its surface.ply, .vti, .npy and .bt its belief.vti. LAZ: vantage-convert of the Python package.\n";
+    "  field    a .vti of a run or of visibility                       to .vti .npy .bt (OctoMap: free, occupied, unknown) .vdb\n\n"
+    "Of a run folder, .obj and .glb take its surface.ply, .vti, .npy, .bt and .vdb its belief.vti. LAZ: vantage-convert of the Python package.\n";
 
 constexpr const char* kExamples =
     "  vantage convert hall.e57 hall.las --resolution 0.001 --crs EPSG:25832\n"
@@ -53,10 +54,10 @@ struct Target {
 
 const std::vector<Target>& targets() {
   using enum ConvertKind;
-  static const std::vector<Target> all = {
-      {".ply", {scans, surface}}, {".pcd", {scans}}, {".las", {scans}},     {".xyz", {scans}},   {".txt", {scans}},
-      {".asc", {scans}},          {".csv", {scans}}, {".geojson", {scans}}, {".obj", {surface}}, {".glb", {surface}},
-      {".vti", {field}},          {".npy", {field}}, {".bt", {field}}};
+  static const std::vector<Target> all = {{".ply", {scans, surface}}, {".pcd", {scans}},   {".las", {scans}}, {".xyz", {scans}},
+                                          {".txt", {scans}},          {".asc", {scans}},   {".csv", {scans}}, {".geojson", {scans}},
+                                          {".obj", {surface}},        {".glb", {surface}}, {".vti", {field}}, {".npy", {field}},
+                                          {".bt", {field}},           {".vdb", {field}}};
   return all;
 }
 
@@ -72,6 +73,7 @@ std::string_view name_of(ConvertKind kind) { return kind == ConvertKind::scans ?
 const Target& target_of(const std::string& out) {
   std::string ending = fs::path(out).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  require(ending != ".vdb" || has_openvdb(), "this build has no OpenVDB (libopenvdb-dev)", out);
   require(ending != ".laz", "vantage-convert IN.las OUT.laz of the Python package writes LAZ; .las is written here", out);
   for (const Target& target : targets())
     if (target.ending == ending) return target;
@@ -93,7 +95,7 @@ void check_flags(const Flags& flags, std::string_view ending) {
                 {"--las", !flags.las.empty(), ".las"},
                 {"--crs", !flags.crs.empty(), ".las .geojson"},
                 {"--scan", !flags.scan.empty(), endings(ConvertKind::scans)},
-                {"--array", !flags.array.empty(), ".vti .npy .bt"}};
+                {"--array", !flags.array.empty(), ".vti .npy .bt .vdb"}};
   for (const auto& row : kTable) {
     const bool known = fmt::format(" {} ", row.endings).find(fmt::format(" {} ", ending)) != std::string::npos;
     require(!row.given || known, fmt::format("only for {}, not for {}", row.endings, ending), row.name);
@@ -223,9 +225,10 @@ Written field_written(const Flags& flags, const fs::path& in, std::string_view e
   if (ending == ".npy")
     written.left_out.push_back(
         fmt::format("the place of node 0 0 0 ({} {} {}) and the spacing ({})", origin[0], origin[1], origin[2], window.spacing));
-  written.bytes = ending == ".npy"  ? array_as_npy(*arrays[0], nodes)
-                  : ending == ".bt" ? octomap_of(image, *arrays[0], in.string())
-                                    : image_of(image, arrays);
+  written.bytes = ending == ".npy"   ? array_as_npy(*arrays[0], nodes)
+                  : ending == ".bt"  ? octomap_of(image, *arrays[0], in.string())
+                  : ending == ".vdb" ? array_as_vdb(*arrays[0], window)
+                                     : image_of(image, arrays);
   return written;
 }
 
@@ -262,7 +265,7 @@ int convert_command(const Arguments& arguments) {
   parser.option("--las", flags.las, "VERSION", "1.2 or 1.4 (default: 1.2, and 1.4 for more than 4,294,967,295 points)", "Points");
   parser.option("--scan", flags.scan, "K", "only this scan, counted from 0 as in stations.csv", "Points");
   parser.option("--crs", flags.crs, "EPSG:CODE", "projected coordinate system of the numbers (.las, .geojson; default: that of the file)", "Points");
-  parser.option("--array", flags.array, "NAME", "which array of a field (.vti, .npy, .bt; default: all, the only one, state)", "Fields");
+  parser.option("--array", flags.array, "NAME", "which array of a field (.vti, .npy, .bt, .vdb; default: all, the only one, state)", "Fields");
   parser.flag("--force", flags.force, "replace OUT", "Output");
   parser.flag("--json", flags.json, "print what was written as JSON", "Output");
   parser.flag("-q,--quiet", flags.quiet, "print nothing", "Output");

@@ -159,6 +159,17 @@ def test_a_field_is_the_same_in_vti_and_npy(vantage, tmp_path, run):
     assert done.returncode == 2 and "array psi: must be states" in done.stderr
 
 
+def test_a_field_as_vdb_where_openvdb_is(vantage, tmp_path, run):
+    done = vantage("convert", run, tmp_path / "psi.vdb", "--array", "psi")
+    if done.returncode:
+        assert (done.returncode, done.stderr) == (2, f"vantage: {tmp_path / 'psi.vdb'}: this build has no OpenVDB (libopenvdb-dev)\n")
+        assert not (tmp_path / "psi.vdb").exists()
+        return
+    assert (tmp_path / "psi.vdb").read_bytes()[:4] == b" BDV"
+    wrong = vantage("convert", run, tmp_path / "which.vdb")
+    assert wrong.returncode == 2 and "--array: is missing: one of" in wrong.stderr
+
+
 def leaves_of_bt(path):
     """Resolution, and {state: volume} of an OctoMap file in cubes, decoded as its format says."""
     data = path.read_bytes()
@@ -276,7 +287,7 @@ REFUSED = [
     (["IN.xyz", "out.las", "--las", "1.3"], 2, "--las: 1.3: must be 1.2 or 1.4"),
     (["IN.xyz", "out.las", "--ascii"], 2, "--ascii: only for .ply .pcd, not for .las"),
     (["IN.xyz", "out.ply", "--number", "half"], 2, "--number: half: must be float or double"),
-    (["IN.xyz", "out.ply", "--array", "psi"], 2, "--array: only for .vti .npy .bt, not for .ply"),
+    (["IN.xyz", "out.ply", "--array", "psi"], 2, "--array: only for .vti .npy .bt .vdb, not for .ply"),
     (["IN.xyz", "old.ply"], 2, "old.ply: is there already; --force replaces it"),
     (["IN.xyz", "no/such/folder/out.ply"], 3, "cannot write"),
     (["missing.xyz", "out.ply"], 3, "missing.xyz: no such file"),
@@ -323,9 +334,8 @@ def test_force_replaces(vantage, folder):
 
 def test_help_names_every_ending(vantage):
     text = vantage("convert", "--help").stdout
-    for ending in ("ply", "pcd", "las", "xyz", "csv", "geojson", "obj", "glb", "vti", "npy", "bt"):
+    for ending in ("ply", "pcd", "las", "xyz", "csv", "geojson", "obj", "glb", "vti", "npy", "bt", "vdb"):
         assert f".{ending}" in text
-    assert ".vdb" not in text
 
 
 def test_info_knows_what_convert_wrote(vantage, tmp_path, run):

@@ -46,7 +46,8 @@ class Watch {
     const auto safe = [&](const Vec<Dim>& p) {
       const Index<Dim> node = grid.nearest(p);
       if (!grid.inside(node)) return false;
-      if (((cramped ? grid.position(node) : p) - here).norm() <= near && (cramped || places_.size() == 1)) return states.at(node) != NodeState::obstacle || node == home;
+      if (((cramped ? grid.position(node) : p) - here).norm() <= near && (cramped || places_.size() == 1))
+        return states.at(node) != NodeState::obstacle || node == home;
       return states.at(node) == NodeState::seen &&
              static_cast<double>(known.at(node)) >= clearance - 0.25 * grid.spacing;  // Distances are approximate.
     };

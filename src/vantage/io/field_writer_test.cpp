@@ -9,6 +9,7 @@
 #include "vantage/io/npy.h"
 #include "vantage/io/octomap.h"
 #include "vantage/io/test_data.h"
+#include "vantage/io/vdb.h"
 #include "vantage/io/vti.h"
 
 namespace vantage {
@@ -53,6 +54,31 @@ TEST(VtiReader, GivesTheFieldBack) {
     RC_ASSERT(std::get<0>(image.arrays[0].values) == state);
     RC_ASSERT(std::get<1>(image.arrays[1].values) == psi);
   });
+}
+
+TEST(Vdb, GivesTheFieldBack) {
+  if (!has_openvdb()) {
+    EXPECT_NE(error_of([] { (void)array_as_vdb({"psi", std::vector<float>(1)}, {0.5, {0, 0, 0}, {1, 1, 1}}); }).find("no OpenVDB"),
+              std::string::npos);
+    GTEST_SKIP() << "no OpenVDB";
+  }
+  const Grid<3> window{0.25, {-40, 2, 1}, {21, 14, 9}};
+  Random random(5);
+  std::vector<float> psi(window.size());
+  std::vector<std::uint8_t> state(window.size());
+  for (std::size_t i = 0; i < psi.size(); ++i) {
+    psi[i] = random.uniform(0.0, 1.0) < 0.3 ? 0.0F : static_cast<float>(random.uniform(-9.0, 9.0));
+    state[i] = static_cast<std::uint8_t>(random.below(3));
+  }
+  psi.front() = psi.back() = 1.0F;  // The window of what is not 0 is the whole.
+  state.front() = state.back() = 2;
+  const std::string floats = array_as_vdb({"psi", psi}, window), whole = array_as_vdb({"state", state}, window);
+  EXPECT_EQ(array_as_vdb({"psi", psi}, window), floats);
+  const LatticeImage image = parse_vdb(floats), states = parse_vdb(whole);
+  EXPECT_TRUE(image.window == window);
+  EXPECT_EQ(image.arrays[0].name, "psi");
+  EXPECT_EQ(std::get<1>(image.arrays[0].values), psi);
+  EXPECT_EQ(std::get<0>(states.arrays[0].values), state);
 }
 
 TEST(VtiReader, RefusesWhatItCannotTrust) {
