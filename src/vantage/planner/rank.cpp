@@ -231,13 +231,10 @@ struct Planner<Dim>::Ranking {
     mending.take(place);
   }
   [[nodiscard]] RaySums look(const Vec<Dim>& place, const Field<Dim>* weight) const {
-    if (facing.any()) return planner.rays(view, weight).look(place, directions);
-    const std::vector<Vec<Dim>> some = preview.frontal(place, directions);
-    if (some.empty()) return {};
-    RaySums sums = planner.rays(view, weight).look(place, some);
-    const double share = static_cast<double>(some.size()) / static_cast<double>(directions.size());
-    for (double* sum : {&sums.volume, &sums.solid_angle, &sums.area}) *sum *= share;
-    return sums;
+    const RayMarch<Dim> march = planner.rays(view, weight);
+    if (facing.any()) return planner.look(march, place, directions);
+    const std::vector<Vec<Dim>> some = preview.frontal(place, planner.covered(march, place, directions));
+    return some.empty() ? RaySums{} : march.look(place, some).scaled(static_cast<double>(some.size()) / static_cast<double>(directions.size()));
   }
   [[nodiscard]] const Field<Dim>* weight() const { return left.values.empty() ? &unshown : &left; }
   [[nodiscard]] double score(const RaySums& sums, double mended) const {
@@ -320,7 +317,7 @@ auto Planner<Dim>::first_of_best_pair(const BeliefView<Dim>& view, std::span<con
     std::vector<double> both(count - i, scored[i].score);
     parallel_for(both.size() - 1, 1, [&](std::size_t k) {
       const Scored& second = scored[i + 1 + k];
-      both[k] += mix(march.look(grid.position(second.node), directions)) * after_travel(second.node);
+      both[k] += mix(look(march, grid.position(second.node), directions)) * after_travel(second.node);
     });
     const double best = *std::max_element(both.begin(), both.end());
     if (best > most) most = best, first = i;
