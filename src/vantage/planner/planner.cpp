@@ -220,7 +220,7 @@ std::vector<double> Planner<Dim>::evaluate(const BeliefView<Dim>& view, std::spa
   parallel_for(places.size(), 1, [&](std::size_t i) {
     const Index<Dim> node = view.window().nearest(places[i]);
     if (!view.window().inside(node) || !view.seen(view.window().linear(node))) return;
-    values[i] = by_rays ? mix(march.look(places[i], directions)) : sum.at(places[i]);
+    values[i] = by_rays ? mix(look(march, places[i], directions)) : sum.at(places[i]);
   });
   return values;
 }

@@ -31,12 +31,19 @@ struct Decision {
   std::vector<std::pair<std::size_t, float>> scored;  ///< Candidates (linear index) and their E.
 };
 
+/// The elevations that a scan can say something of, as sines; all by default.
+struct Coverage {
+  double lowest = -1.0, highest = 1.0;
+  bool by_hits = false;  ///< Of each scan no higher than its highest hit: a cloud without the rays that met nothing says nothing of the sky.
+};
+
 /// Where a scanner may be put, if not wherever reachable_nodes() says: the nodes (1), given the belief and where we are.
 template <int Dim>
 struct StationRule {
   std::function<Field<Dim, std::uint8_t>(const BeliefView<Dim>&, const Vec<Dim>& here)> places;
   bool all = false;  ///< Every such node is a candidate (a layer above the ground has no medial axis); false: the medial ones.
   std::function<double(const Vec<Dim>&)> worth = {};  ///< Times the weight w of a place [1]; none: 1 everywhere.
+  std::optional<Coverage> coverage = {};              ///< Nothing is expected of other directions; none: of all.
 };
 
 /// What is wanted of a list of places to scan from.
@@ -114,6 +121,8 @@ class Planner {
   [[nodiscard]] const Scored& best_of(std::span<const Scored> scored, const Vec<Dim>& here) const;
   [[nodiscard]] const Scored& first_of_best_pair(const BeliefView<Dim>& view, std::span<const Scored> scored) const;
   void look_again(const BeliefView<Dim>& view, Decision<Dim>& decision, double seen_volume);
+  [[nodiscard]] std::vector<Vec<Dim>> covered(const RayMarch<Dim>& march, const Vec<Dim>& place, std::span<const Vec<Dim>> directions) const;
+  [[nodiscard]] RaySums look(const RayMarch<Dim>& march, const Vec<Dim>& place, std::span<const Vec<Dim>> directions) const;
   [[nodiscard]] double mix(const RaySums& sums) const;
   void set_scale(std::span<const Scored> scored);
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;

@@ -3,134 +3,16 @@
 #include <cmath>
 #include <queue>
 #include <tuple>
-#include <unordered_map>
 
 #include "vantage/base/parallel.h"
 #include "vantage/planner/planner.h"
+#include "vantage/planner/preview.h"
 
 namespace vantage {
 namespace {
 
 constexpr std::int64_t kRays = 4000;  // Of a look at a place (2D: a quarter).
-constexpr double kOpen = 0.05;        // A boundary that opens with less is no surface that could be registered, nor much to see.
-constexpr double kFaint = 0.02;       // What is shown with less counts as hidden.
 constexpr std::size_t kNever = ~std::size_t{0};
-
-/// e^-x for a small x >= 0, by + * / alone.
-double fading(double x) {
-  double value = 1.0 / (1.0 + x / 64.0);
-  for (int k = 0; k < 6; ++k) value *= value;
-  return value;
-}
-
-/// Which rays meet the shadow boundary frontally enough.
-template <int Dim>
-class Facing {
- public:
-  Facing(std::span<const BoundaryFace<Dim>> faces, double least) : least_(least) {
-    if (least <= 0.0) return;
-    for (const BoundaryFace<Dim>& face : faces) normals_.try_emplace(face.unseen, Vec<Dim>::Zero()).first->second += face.normal;
-  }
-  [[nodiscard]] bool any() const { return least_ <= 0.0; }
-  /// Where a ray of that direction first meets the unseen; over a corner there may be no face.
-  [[nodiscard]] bool holds(std::size_t unseen, const Vec<Dim>& direction) const {
-    const auto found = any() ? normals_.end() : normals_.find(unseen);
-    return found == normals_.end() || -direction.dot(found->second) >= least_ * found->second.norm();
-  }
-
- private:
-  double least_;
-  std::unordered_map<std::size_t, Vec<Dim>> normals_;  // Of unseen nodes that have faces; any length.
-};
-
-/// What a scan from a place is expected to show, by straight lines through the lattice.
-template <int Dim>
-class Preview {
- public:
-  struct Medium {
-    double opacity = 0.0, range = 0.0;
-  };
-  Preview(const BeliefView<Dim>& view, const Field<Dim>& openness, const Medium& medium, const Facing<Dim>& facing)
-      : view_(view),
-        openness_(openness),
-        grid_(view.window()),
-        fade_(fading(0.5 * medium.opacity * grid_.spacing)),
-        range_(medium.range),
-        facing_(facing) {}
-
-  /// The directions along which what is met first is unseen and met frontally enough.
-  [[nodiscard]] std::vector<Vec<Dim>> frontal(const Vec<Dim>& from, std::span<const Vec<Dim>> directions) const {
-    std::vector<Vec<Dim>> kept;
-    for (const Vec<Dim>& d : directions)
-      walk(from, d, range_, [&](std::size_t i) {
-        if (view_.state[i] == NodeState::unseen && facing_.holds(i, d)) kept.push_back(d);
-        return view_.state[i] == NodeState::seen;
-      });
-    return kept;
-  }
-
-  /// Probability that the unseen node is shown to `from`: that the boundary opens, times what the unseen lets through; 0 behind a known surface.
-  [[nodiscard]] double shows(const Vec<Dim>& from, std::size_t node) const {
-    const Vec<Dim> offset = grid_.position(node) - from;
-    const double distance = offset.norm();
-    if (distance > range_) return 0.0;
-    double open = -1.0, through = 1.0;
-    bool obstacle = false;
-    walk(from, offset / distance, distance - 0.5 * grid_.spacing, [&](std::size_t i) {
-      const NodeState state = view_.state[i];
-      obstacle = state == NodeState::obstacle;
-      if (obstacle) return false;
-      if (state == NodeState::unseen) {
-        if (open < 0.0 && !facing_.holds(i, offset / distance)) through = 0.0;
-        open = std::max(open, static_cast<double>(openness_[i]));
-        through *= fade_;
-      }
-      return through > kFaint;
-    });
-    if (obstacle || through <= kFaint) return 0.0;
-    return std::max(open < 0.0 ? static_cast<double>(openness_[node]) : open, 0.0) * through;
-  }
-
-  /// Lessens what is left of every unseen node by what a scan from `place` will show.
-  void take(const Vec<Dim>& place, Field<Dim>& left) const {
-    parallel_for(grid_.size(), 1024, [&](std::size_t i) {
-      if (view_.state[i] == NodeState::unseen && left[i] > 0.0F) left[i] *= static_cast<float>(1.0 - shows(place, i));
-    });
-  }
-
-  /// Share of known surface in all that is in view: surface and boundary that may open.
-  [[nodiscard]] double overlap(const Vec<Dim>& from, std::span<const Vec<Dim>> directions) const {
-    std::int64_t known = 0, open = 0;
-    for (const Vec<Dim>& d : directions)
-      walk(from, d, range_, [&](std::size_t i) {
-        if (view_.state[i] == NodeState::seen) return true;
-        known += view_.state[i] == NodeState::obstacle ? 1 : 0;
-        open += view_.state[i] == NodeState::unseen && static_cast<double>(openness_[i]) > kOpen ? 1 : 0;
-        return false;
-      });
-    return known + open > 0 ? static_cast<double>(known) / static_cast<double>(known + open) : 0.0;
-  }
-
- private:
-  /// Calls visit(node) every half cell, from one cell off the start on, while it returns true.
-  template <class Visit>
-  void walk(const Vec<Dim>& from, const Vec<Dim>& direction, double length, Visit&& visit) const {
-    const Vec<Dim> start = from / grid_.spacing, step = 0.5 * direction;
-    const auto samples = static_cast<int>(2.0 * length / grid_.spacing);
-    for (int k = 2; k < samples; ++k) {
-      const Vec<Dim> p = start + static_cast<double>(k) * step;
-      Index<Dim> node;
-      for (int a = 0; a < Dim; ++a) node[a] = static_cast<std::int32_t>(std::floor(p[a] + 0.5)) - grid_.first[a];
-      if (!grid_.inside(node) || !visit(grid_.linear(node))) return;
-    }
-  }
-
-  const BeliefView<Dim>& view_;
-  const Field<Dim>& openness_;
-  Grid<Dim> grid_;
-  double fade_, range_;
-  const Facing<Dim>& facing_;
-};
 
 /// Known surface that waits for a better look.
 template <int Dim>
@@ -231,13 +113,10 @@ struct Planner<Dim>::Ranking {
     mending.take(place);
   }
   [[nodiscard]] RaySums look(const Vec<Dim>& place, const Field<Dim>* weight) const {
-    if (facing.any()) return planner.rays(view, weight).look(place, directions);
-    const std::vector<Vec<Dim>> some = preview.frontal(place, directions);
-    if (some.empty()) return {};
-    RaySums sums = planner.rays(view, weight).look(place, some);
-    const double share = static_cast<double>(some.size()) / static_cast<double>(directions.size());
-    for (double* sum : {&sums.volume, &sums.solid_angle, &sums.area}) *sum *= share;
-    return sums;
+    const RayMarch<Dim> march = planner.rays(view, weight);
+    if (facing.any()) return planner.look(march, place, directions);
+    const std::vector<Vec<Dim>> some = preview.frontal(place, planner.covered(march, place, directions));
+    return some.empty() ? RaySums{} : march.look(place, some).scaled(static_cast<double>(some.size()) / static_cast<double>(directions.size()));
   }
   [[nodiscard]] const Field<Dim>* weight() const { return left.values.empty() ? &unshown : &left; }
   [[nodiscard]] double score(const RaySums& sums, double mended) const {
@@ -320,7 +199,7 @@ auto Planner<Dim>::first_of_best_pair(const BeliefView<Dim>& view, std::span<con
     std::vector<double> both(count - i, scored[i].score);
     parallel_for(both.size() - 1, 1, [&](std::size_t k) {
       const Scored& second = scored[i + 1 + k];
-      both[k] += mix(march.look(grid.position(second.node), directions)) * after_travel(second.node);
+      both[k] += mix(look(march, grid.position(second.node), directions)) * after_travel(second.node);
     });
     const double best = *std::max_element(both.begin(), both.end());
     if (best > most) most = best, first = i;

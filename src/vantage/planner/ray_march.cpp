@@ -324,6 +324,24 @@ bool RayMarch<Dim>::line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, doub
 
 template <int Dim>
   requires SpatialDim<Dim>
+double RayMarch<Dim>::highest_hit(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const {
+  const Grid<Dim>& grid = view_.window();
+  const double limit = medium_.max_range / grid.spacing;
+  const auto along = [&](const auto& codes) {
+    double highest = -1.0;
+    for (const Vec<Dim>& direction : directions) {
+      if (direction[Dim - 1] <= highest) continue;
+      const Ray<Dim> ray(grid, origin, direction);
+      const Stop stop = march(ray, codes, limit);
+      if (stop.inside && MarchGrid<Dim>::state(codes.code(ray.cell(stop.range))) == NodeState::obstacle) highest = direction[Dim - 1];
+    }
+    return highest;
+  };
+  return medium_.grid != nullptr ? along(*medium_.grid) : along(PlainCodes<Dim>{view_.state});
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
 double RayMarch<Dim>::weight_at(const Vec<Dim>& place) const {
   if (medium_.weight == nullptr) return 1.0;
   const Index<Dim> node = view_.window().nearest(place);

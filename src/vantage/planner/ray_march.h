@@ -29,6 +29,8 @@ struct RaySums {
   double volume = 0.0;       ///< Expected new volume: sum of w T r^(d-1) dt dOmega [m^Dim].
   double solid_angle = 0.0;  ///< Of the shadow boundary in view: sum of w dOmega [sr or rad].
   double area = 0.0;         ///< Eq. (1) with line of sight: sum of w tau r^(d-1) dOmega [m^(Dim-1)].
+
+  [[nodiscard]] RaySums scaled(double by) const { return {by * volume, by * solid_angle, by * area}; }
 };
 
 /// Rays through the belief, from cell to cell; a node's cell is the cube around it. They end at the first cell that is not seen.
@@ -55,6 +57,8 @@ class RayMarch {
 
   /// True if the straight line from `from` runs through seen cells until it is within `slack` of `to` [m].
   [[nodiscard]] bool line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, double slack) const;
+  /// Of the `directions` along which known surface is met first, the largest last component: the sine of the highest elevation with a hit; -1: none.
+  [[nodiscard]] double highest_hit(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const;
   /// w at a place; 1 outside of the window.
   [[nodiscard]] double weight_at(const Vec<Dim>& place) const;
   [[nodiscard]] double spacing() const { return view_.window().spacing; }

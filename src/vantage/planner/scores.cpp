@@ -11,6 +11,29 @@
 
 namespace vantage {
 
+/// Those of the directions that a scan from the place is expected to say something of.
+template <int Dim>
+  requires SpatialDim<Dim>
+std::vector<Vec<Dim>> Planner<Dim>::covered(const RayMarch<Dim>& march, const Vec<Dim>& place, std::span<const Vec<Dim>> directions) const {
+  std::vector<Vec<Dim>> kept(directions.begin(), directions.end());
+  if (!rule_.coverage) return kept;
+  const Coverage& coverage = *rule_.coverage;
+  std::erase_if(kept, [&](const Vec<Dim>& d) { return d[Dim - 1] < coverage.lowest || d[Dim - 1] > coverage.highest; });
+  if (!coverage.by_hits) return kept;
+  const double highest = march.highest_hit(place, kept);
+  std::erase_if(kept, [&](const Vec<Dim>& d) { return d[Dim - 1] > highest; });
+  return kept;
+}
+
+/// What a scan from there is expected to show, by directions that share the full sphere evenly.
+template <int Dim>
+  requires SpatialDim<Dim>
+RaySums Planner<Dim>::look(const RayMarch<Dim>& march, const Vec<Dim>& place, std::span<const Vec<Dim>> directions) const {
+  if (!rule_.coverage) return march.look(place, directions);
+  const std::vector<Vec<Dim>> some = covered(march, place, directions);
+  return some.empty() ? RaySums{} : march.look(place, some).scaled(static_cast<double>(some.size()) / static_cast<double>(directions.size()));
+}
+
 template <int Dim>
   requires SpatialDim<Dim>
 double Planner<Dim>::mix(const RaySums& sums) const {
@@ -45,9 +68,9 @@ auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const st
   const RayMarch<Dim> march = rays(view);
   const std::uint64_t turn = seed_ * 1000003 + visited_.size();
   std::vector<Scored> scored(nodes.size());
-  const auto look = [&](std::span<Scored> some, std::int64_t count) {
+  const auto look_at = [&](std::span<Scored> some, std::int64_t count) {
     const std::vector<Vec<Dim>> directions = spread_directions<Dim>(rays_in<Dim>(count), turn + static_cast<std::uint64_t>(count));
-    parallel_for(some.size(), 1, [&](std::size_t i) { some[i].sums = march.look(view.window().position(some[i].node), directions); });
+    parallel_for(some.size(), 1, [&](std::size_t i) { some[i].sums = look(march, view.window().position(some[i].node), directions); });
   };
   const auto rank = [&] {
     set_scale(scored);
@@ -56,10 +79,10 @@ auto Planner<Dim>::score_by_rays(const BeliefView<Dim>& view, std::span<const st
               [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
   };
   for (std::size_t i = 0; i < nodes.size(); ++i) scored[i].node = nodes[i];
-  look(scored, options_.rays);
+  look_at(scored, options_.rays);
   rank();
   const std::size_t best = std::min<std::size_t>(scored.size(), static_cast<std::size_t>(options_.refine));
-  look(std::span(scored).first(best), options_.refine_rays);
+  look_at(std::span(scored).first(best), options_.refine_rays);
   // The rest keeps its first look; only those looked at twice may win.
   std::vector<Scored> rest(scored.begin() + static_cast<std::ptrdiff_t>(best), scored.end());
   scored.resize(best);
@@ -85,7 +108,7 @@ auto Planner<Dim>::score_by_boundary(const BeliefView<Dim>& view, std::span<cons
             [](const Scored& a, const Scored& b) { return std::tuple(-a.score, a.node) < std::tuple(-b.score, b.node); });
   // The end of the run is judged by expected volume whatever the metric (method.md Sec. 7): that of the best few.
   parallel_for(std::min<std::size_t>(scored.size(), 64), 1,
-               [&](std::size_t i) { scored[i].sums = march.look(view.window().position(scored[i].node), directions); });
+               [&](std::size_t i) { scored[i].sums = look(march, view.window().position(scored[i].node), directions); });
   return scored;
 }
 
@@ -108,7 +131,7 @@ auto Planner<Dim>::score_by_baseline(const BeliefView<Dim>& view, std::span<cons
   }
   parallel_for(scored.size(), 1, [&](std::size_t i) {
     const Vec<Dim> z = view.window().position(scored[i].node);
-    scored[i].sums = march.look(z, directions);  // The end of the run is judged by expected volume whatever the metric.
+    scored[i].sums = look(march, z, directions);  // The end of the run is judged by expected volume whatever the metric.
     if (options_.metric == Metric::count) scored[i].score = frontier_count<Dim>(frontier, march, z, max_range_) * after_travel(scored[i].node);
   });
   set_scale(scored);
@@ -133,6 +156,8 @@ auto Planner<Dim>::score_by_optimism(const BeliefView<Dim>& view, std::span<cons
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                                                  \
+  template std::vector<Vec<D>> Planner<D>::covered(const RayMarch<D>&, const Vec<D>&, std::span<const Vec<D>>) const;           \
+  template RaySums Planner<D>::look(const RayMarch<D>&, const Vec<D>&, std::span<const Vec<D>>) const;                          \
   template double Planner<D>::mix(const RaySums&) const;                                                                        \
   template double Planner<D>::after_travel(std::size_t) const;                                                                  \
   template void Planner<D>::set_scale(std::span<const Scored>);                                                                 \

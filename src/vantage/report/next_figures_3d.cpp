@@ -18,6 +18,9 @@ namespace {
 
 constexpr double kNameGap = 22.0;  ///< Between names of unseen regions; of two nearer ones the larger keeps its own [pixels].
 
+constexpr double kLetter = 8.0;  ///< Width of one of them, at most [pixels].
+constexpr double kReach = 0.5;   ///< Of a zone beyond what was met, as a share of its longest side: what lies farther off is cut.
+
 /// A region's name stands where it is.
 struct Named {
   Vec<3> place;
@@ -75,7 +78,10 @@ std::string names_overlay(const std::vector<Named>& names, const Camera& camera)
   std::vector<Vec<2>> taken;
   for (const Named& name : names)
     for (Vec<2> p : on_picture<3>(std::vector<Vec<3>>{name.place}, camera)) {
-      p.x() = std::clamp(p.x(), 130.0, std::max(130.0, camera.width() - 130.0));
+      // Inside of the picture with all of its letters; what lies outside of the picture is named at the edge.
+      const double half = 6.0 + 0.5 * kLetter * static_cast<double>(name.text.size());
+      p.x() = std::clamp(p.x(), half, std::max(half, camera.width() - half));
+      p.y() = std::clamp(p.y(), kNameGap, std::max(kNameGap, camera.height() - 0.5 * kNameGap));
       if (std::any_of(taken.begin(), taken.end(),
                       [&](const Vec<2>& q) { return std::abs(q.y() - p.y()) < kNameGap && std::abs(q.x() - p.x()) < 200.0; }))
         continue;
@@ -171,6 +177,22 @@ std::string tour_text(const ReportInput<3>& input) {
 }
 
 }  // namespace
+
+std::vector<Box<3>> next_parts(const ReportInput<3>& input, const Box<3>& contents) {
+  std::vector<Box<3>> parts;
+  if (input.next.empty()) return parts;
+  for (const RankedPlace<3>& place : input.next) parts.push_back({place.position, place.position});
+  for (std::size_t k = 0; k < std::min(kTaggedRegions, input.verdict.unseen.size()); ++k) parts.push_back(input.verdict.unseen[k].box);
+  const Box<3> reach = contents.grown(kReach * contents.size().maxCoeff());
+  for (const std::vector<Zone>* zones : {&input.plan.keep_out, &input.plan.must_see})
+    for (const Zone& zone : *zones) {
+      const Box<2> flat = zone.bounds();
+      const Box<3> whole{{flat.low.x(), flat.low.y(), std::max(zone.low, contents.low.z())},
+                         {flat.high.x(), flat.high.y(), std::min(zone.high, contents.high.z())}};
+      if (const Box<3> near = whole.intersection(reach); !near.empty()) parts.push_back(near);
+    }
+  return parts;
+}
 
 std::vector<Figure> next_figures(const ReportInput<3>& input, const Box<3>& box, const Camera& bird) {
   if (input.next.empty() || input.steps.empty()) return {};

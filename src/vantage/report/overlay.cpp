@@ -12,6 +12,7 @@ namespace vantage {
 namespace {
 
 constexpr double kShortestRun = 2.5;  ///< Of a path [pixels].
+constexpr double kTagHeight = 49.0;   ///< Of a tag above its place; nearer to the picture's upper edge it hangs below [pixels].
 
 /// Places that keep `gap` from each other, the last and the first before all others.
 std::vector<bool> spread(std::span<const Vec<2>> places, double gap) {
@@ -80,10 +81,12 @@ std::string cross_overlay(const Vec<2>& place) {
 
 std::string tag_overlay(const Vec<2>& place, const std::string& text) {
   const double width = 16.0 + 9.0 * static_cast<double>(text.size());
+  const bool below = place.y() < kTagHeight;
   return fmt::format(
-      "<g class=\"tag\"><path d=\"M{0:.1f} {1:.1f}v-26\"/><circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"3\"/>"
+      "<g class=\"tag{7}\"><path d=\"M{0:.1f} {1:.1f}v{8}26\"/><circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"3\"/>"
       "<rect x=\"{2:.1f}\" y=\"{3:.1f}\" width=\"{4:.1f}\" height=\"24\" rx=\"6\"/><text x=\"{0:.1f}\" y=\"{5:.1f}\" dy=\".35em\">{6}</text></g>",
-      place.x(), place.y(), place.x() - 0.5 * width, place.y() - 48.0, width, place.y() - 36.0, escaped(text));
+      place.x(), place.y(), place.x() - 0.5 * width, place.y() + (below ? 24.0 : -48.0), width, place.y() + (below ? 36.0 : -36.0), escaped(text),
+      below ? " below" : "", below ? "" : "-");
 }
 
 std::string scale_overlay(double pixels_per_metre, int width, int height) {

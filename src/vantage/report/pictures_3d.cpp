@@ -59,11 +59,17 @@ std::vector<Vec<3>> outline(const ReportInput<3>& input, const Box<3>& box) {
   return places;
 }
 
-/// Looks along the longer side, from the south-west.
-Camera bird(const ReportInput<3>& input, const Box<3>& box) {
+/// Looks along the longer side, from the south-west, at the contents and `parts` beside them.
+Camera bird(const ReportInput<3>& input, const Box<3>& contents, std::span<const Box<3>> parts) {
   const int width = input.picture_width;
+  Box<3> box = contents;
+  std::vector<Vec<3>> places = outline(input, contents);
+  for (const Box<3>& part : parts) {
+    box.extend(part);
+    for (const Vec<3>& p : corners(part)) places.push_back(p);
+  }
   const double azimuth = box.size().x() >= box.size().y() ? 66.0 : 24.0;
-  return Camera::bird(box, outline(input, box), radians(azimuth), radians(38.0), {width, width * 7 / 10, 28.0});
+  return Camera::bird(box, places, radians(azimuth), radians(38.0), {width, width * 7 / 10, 28.0});
 }
 
 double point_radius(const ReportInput<3>& input, const Camera& camera) {
@@ -189,8 +195,11 @@ std::vector<Figure> pictures(const ReportInput<3>& input) {
   std::vector<Figure> figures;
   if (input.domain.empty()) return figures;
   const Box<3> box = contents(input);
-  const Camera camera = bird(input, box);
-  for (Figure& figure : next_figures(input, box, camera)) figures.push_back(std::move(figure));
+  const Camera camera = bird(input, box, {});
+  const std::vector<Box<3>> parts = next_parts(input, box);
+  Box<3> all = box;
+  for (const Box<3>& part : parts) all.extend(part);
+  for (Figure& figure : next_figures(input, all, bird(input, box, parts))) figures.push_back(std::move(figure));
   if (point_count(input) > 0) figures.push_back(points_figure(input, camera));
   if (!input.patches.empty()) figures.push_back(surface_figure(input, camera));
   if (input.state.window.size() > 0) figures.push_back(unseen_figure(input, camera));

@@ -124,6 +124,7 @@ footer { margin-top: 96px; padding-bottom: 56px; color: var(--soft); font-size: 
   .plate:not(.many) .dot { r: 10px; } .plate:not(.many) .pin { display: none; } .plate:not(.many) .pin.major { display: inline; }
   .plate:not(.many) .way { stroke-width: 5; } .plate:not(.many) .way.casing { stroke-width: 9; }
   .pin circle { r: 26px; } .pin text { font-size: 30px; } .tag { transform-box: fill-box; transform-origin: 50% 100%; transform: scale(2.1); }
+  .tag.below { transform-origin: 50% 0; }
     .scale text { font-size: 36px; }
   .chart { margin-right: -6px; } .tick, .label { font-size: 15px; } .name { font-size: 16px; }
 }

@@ -11,6 +11,7 @@
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/session/next_answer.h"
+#include "vantage/session/next_coverage.h"
 #include "vantage/session/next_notes.h"
 #include "vantage/session/next_options.h"
 #include "vantage/session/next_rule.h"
@@ -74,13 +75,19 @@ class MeasuredRun {
     options.max_scans = scans();  // So that the last one's picture is kept.
     options.snapshots = !request_.folder.empty();
     Explorer<3> explorer(playback, scene_.domain, scene_.start, options, observer_);
-    explorer.set_rule(station_rule<3>(setup_.next, options.planner.clearance, true, outcome_.notes));
+    StationRule<3> rule = station_rule<3>(setup_.next, options.planner.clearance, true, outcome_.notes);
+    const ScanCoverage coverage(scans(), [this](int k) { return scan(k); });
+    rule.coverage = coverage.limits();
+    explorer.set_rule(std::move(rule));
     play_and_compare(explorer);
     stage("ranking");
     const NextAnswer<3> answer = next_answer<3>(explorer, setup_.next, [this](int k) { return scan(k); }, outcome_.notes);
     outcome_.json = answer_json(answer, explorer);
     outcome_.json["eta_m"] = options.surface.eta;
     outcome_.json["domain"] = {to_json<3>(scene_.domain.low), to_json<3>(scene_.domain.high)};
+    const double beyond = coverage.beyond(explorer.view());
+    if (const std::string note = coverage.note(beyond); !note.empty()) outcome_.notes.push_back(note);
+    outcome_.json["coverage"] = coverage.json(beyond);
     outcome_.json["notes"] = outcome_.notes;
     outcome_.unreachable = answer.ranked.empty() && !answer.verdict.complete;
     if (!request_.folder.empty()) save(explorer, answer);

@@ -60,10 +60,26 @@ double share(const std::vector<Vec<3>>& points, const std::vector<Vec<3>>& other
   return static_cast<double>(std::count(found.begin(), found.end(), 1)) / static_cast<double>(sample.size());
 }
 
+/// Without those at the commonest height, unless hardly any others are left: the same scanner sees level ground alike from everywhere.
+std::vector<Vec<3>> off_ground(std::vector<Vec<3>> points) {
+  constexpr double kLayer = 0.02;  // [m]
+  constexpr std::size_t kEnough = 20;
+  std::unordered_map<std::int64_t, std::size_t> layers;
+  const auto layer = [](const Vec<3>& p) { return static_cast<std::int64_t>(std::floor(p.z() / kLayer + 0.5)); };
+  for (const Vec<3>& p : points) ++layers[layer(p)];
+  std::pair<std::size_t, std::int64_t> most{0, 0};
+  for (const auto& [height, count] : layers) most = std::max(most, {count, height});
+  std::vector<Vec<3>> kept;
+  for (const Vec<3>& p : points)
+    if (std::abs(layer(p) - most.second) > 1) kept.push_back(p);
+  return kept.size() >= kEnough ? kept : points;
+}
+
 }  // namespace
 
 SharedPoints shared_points(const Scan<3>& scan, const Scan<3>& other) {
-  const double world = share(points_in(scan, false), points_in(other, false)), own = share(points_in(scan, true), points_in(other, true));
+  const double world = share(points_in(scan, false), points_in(other, false));
+  const double own = share(off_ground(points_in(scan, true)), points_in(other, true));
   return {std::max(world, own), own > world + kClearly};
 }
 
