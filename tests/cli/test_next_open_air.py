@@ -5,7 +5,7 @@ import pytest
 from next_scenes import ask, at, write_slabs
 
 DOMAIN = (-10, -8, -1, 10, 8, 6)  # With as much sky above the walls as below their tops.
-ROUNDS = 12
+ROUNDS = 5
 
 
 @pytest.fixture(scope="module")
@@ -17,38 +17,34 @@ def yard(tmp_path_factory):
     return path
 
 
-def hits(vantage, scene, place, path):
-    """A noise-free scan without the rays that met nothing."""
-    result = vantage("scan", scene, "--step-deg", 2, "--at", at(place), "-o", path, "-q")
+def hits(vantage, scene, place, path, noise):
+    """A scan without the rays that met nothing; noise in metres."""
+    result = vantage("scan", scene, "--step-deg", 2, "--at", at(place), "--noise", noise, "-o", path, "-q")
     assert result.returncode == 0, result.stderr
     return path
 
 
-def test_the_loop_ends_and_nothing_is_expected_of_the_sky(vantage, yard, tmp_path):
+def test_nothing_is_expected_of_the_sky(vantage, yard, tmp_path):
     run, place, before = tmp_path / "run", [0.0, 0.0, 1.6], None
     for number in range(ROUNDS):
-        scan = hits(vantage, yard, place, tmp_path / f"{number}.ply")
+        scan = hits(vantage, yard, place, tmp_path / f"{number}.ply", noise=0.005)
         named = [run, scan] if number else [scan, "-o", run, "--domain", at(DOMAIN), "--height", 1.6, "--voxel", 0.5, "--eta", 0.1]
         result = ask(vantage, *named, "--at", at(place), codes=(0, 6))
         low, high = result["coverage"]["elevation_deg"]
         assert result["coverage"]["by_hits"] and low < -60 and high < 70
-        assert result["coverage"]["out_of_scope_m3"] > 0
-        assert any("out of scope" in note for note in result["notes"])
+        beyond = result["coverage"]["out_of_scope_m3"]  # Later scans, from afar, see over the first ones.
+        assert beyond > 0 or number > 0
+        assert any("out of scope" in note for note in result["notes"]) == (beyond > 0)
         # A sphere of directions would promise hundreds of cubic metres of sky, again and again.
         if before:
             assert result["seen_m3"] - before["seen_m3"] > 0.1 * before["ranked"][0]["new_volume_m3"] - 5
-        if result["verdict"]["complete"] or not result["ranked"]:
-            break
         before, place = result, [round(x, 3) for x in result["vantage"]]
-    else:
-        pytest.fail(f"no end after {ROUNDS} rounds: {result['verdict']}")
-    assert number > 1, "one scan cannot see behind the boxes"
-    assert result["verdict"]["reason"]
+    assert before["ranked"][0]["new_volume_m3"] < 0.1 * before["seen_m3"]
 
 
 def test_level_ground_is_not_taken_for_the_same_scan(vantage, yard, tmp_path):
     """Seen from the scanner, flat ground without noise is the same from everywhere."""
-    scans = [hits(vantage, yard, place, tmp_path / f"{place[0]}.ply") for place in ((-9, -9, 1.6), (9, -9, 1.6))]
+    scans = [hits(vantage, yard, place, tmp_path / f"{place[0]}.ply", noise=0) for place in ((-9, -9, 1.6), (9, -9, 1.6))]
     ask(vantage, *scans, "--at", "-9,-9,1.6", "--at", "9,-9,1.6", "--voxel", 0.5, "--eta", 0.1)
     moved = vantage("next", scans[0], scans[0], "--at", "-9,-9,1.6", "--at", "9,-9,1.6", "--voxel", 0.5, "--eta", 0.1)
     assert moved.returncode == 2 and "a scan counts once" in moved.stderr

@@ -32,7 +32,7 @@ struct Decision {
 };
 
 /// The elevations that a scan can say something of, as sines; all by default.
-struct Coverage {
+struct Elevations {
   double lowest = -1.0, highest = 1.0;
   bool by_hits = false;  ///< Of each scan no higher than its highest hit: a cloud without the rays that met nothing says nothing of the sky.
 };
@@ -43,7 +43,7 @@ struct StationRule {
   std::function<Field<Dim, std::uint8_t>(const BeliefView<Dim>&, const Vec<Dim>& here)> places;
   bool all = false;  ///< Every such node is a candidate (a layer above the ground has no medial axis); false: the medial ones.
   std::function<double(const Vec<Dim>&)> worth = {};  ///< Times the weight w of a place [1]; none: 1 everywhere.
-  std::optional<Coverage> coverage = {};              ///< Nothing is expected of other directions; none: of all.
+  std::optional<Elevations> coverage = {};            ///< Nothing is expected of other directions; none: of all.
 };
 
 /// What is wanted of a list of places to scan from.

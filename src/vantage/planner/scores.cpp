@@ -17,7 +17,7 @@ template <int Dim>
 std::vector<Vec<Dim>> Planner<Dim>::covered(const RayMarch<Dim>& march, const Vec<Dim>& place, std::span<const Vec<Dim>> directions) const {
   std::vector<Vec<Dim>> kept(directions.begin(), directions.end());
   if (!rule_.coverage) return kept;
-  const Coverage& coverage = *rule_.coverage;
+  const Elevations& coverage = *rule_.coverage;
   std::erase_if(kept, [&](const Vec<Dim>& d) { return d[Dim - 1] < coverage.lowest || d[Dim - 1] > coverage.highest; });
   if (!coverage.by_hits) return kept;
   const double highest = march.highest_hit(place, kept);

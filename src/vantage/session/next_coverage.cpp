@@ -36,13 +36,13 @@ Rows rows_of(const Scan<3>& scan) {
 }
 
 /// The sines of the outermost rays, half a step farther: so wide is a ray.
-Coverage coverage_of(const Scan<3>& scan) {
+Elevations coverage_of(const Scan<3>& scan) {
   const Rows rows = rows_of(scan);
   if (rows.highest < 0) return {};
   const ScanPattern& pattern = scan.pattern;
   const double low = std::max(pattern.elevation(rows.lowest) - 0.5 * pattern.step, -0.5 * kPi);
   const double high = std::min(pattern.elevation(rows.highest) + 0.5 * pattern.step, 0.5 * kPi);
-  Coverage coverage{1.0, -1.0, rows.highest == rows.highest_hit};
+  Elevations coverage{1.0, -1.0, rows.highest == rows.highest_hit};
   for (int c = 0; c < pattern.columns(); ++c) {
     const auto [sine, cosine] = sin_cos(pattern.azimuth(c));
     for (const double elevation : {low, high}) {  // A scanner that stands at a slant sees higher on one side.
@@ -73,7 +73,7 @@ ScanCoverage::ScanCoverage(int count, const std::function<Scan<3>(int)>& scan) :
   }
 }
 
-std::optional<Coverage> ScanCoverage::limits() const {
+std::optional<Elevations> ScanCoverage::limits() const {
   if (all.lowest <= -1.0 && all.highest >= 1.0 && !all.by_hits) return std::nullopt;
   return all;
 }

@@ -12,14 +12,14 @@ namespace vantage {
 
 /// What elevations a person's scans say something of, and what lies beyond them.
 struct ScanCoverage {
-  Coverage all;  ///< Of all scans together.
-  std::vector<Coverage> of_scan;
+  Elevations all;  ///< Of all scans together.
+  std::vector<Elevations> of_scan;
   std::vector<Vec<3>> from;  ///< Where each was taken [m].
 
   /// Of `count` scans, asked for one after the other.
   ScanCoverage(int count, const std::function<Scan<3>(int)>& scan);
   /// What the planner is to know of it; nothing if it is all.
-  [[nodiscard]] std::optional<Coverage> limits() const;
+  [[nodiscard]] std::optional<Elevations> limits() const;
   /// Unseen volume that lies beyond the elevations of every scan [m^3].
   [[nodiscard]] double beyond(const BeliefView<3>& view) const;
   /// One line for a person; empty if nothing lies beyond.
