@@ -12,11 +12,7 @@ namespace vantage::samples {
 inline std::string resealed_map(std::string_view changed) {
   constexpr std::size_t kHeader = 16, kNumber = 4;
   std::string file(changed);
-  const auto set = [&](std::size_t at, std::uint32_t value) {
-    std::string bytes;
-    put(bytes, value);
-    file.replace(at, kNumber, bytes);
-  };
+  const auto set = [&](std::size_t at, std::uint32_t value) { overwrite(file, at, value); };
   if (file.size() < kHeader) return file;
   set(kHeader - kNumber, checksum(changed.substr(0, kHeader - kNumber)));
   for (std::size_t at = kHeader; file.size() - at >= 2 * kNumber;) {

@@ -31,6 +31,14 @@ void put(std::string& out, Number value) {
   out.append(bytes, sizeof(Number));
 }
 
+/// Puts `value` in the place of the bytes at `offset`, which the caller has checked to lie inside.
+template <class Number>
+void overwrite(std::string& bytes, std::size_t offset, Number value) {
+  std::string number;
+  put(number, value);
+  bytes.replace(offset, sizeof(Number), number);
+}
+
 /// The number at `offset`, which the caller has checked to lie inside `bytes`.
 template <class Number>
 [[nodiscard]] Number get(std::string_view bytes, std::size_t offset, std::endian order = std::endian::little) {

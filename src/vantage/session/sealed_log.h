@@ -30,11 +30,7 @@ std::string scan_log() {
 inline std::string resealed_log(std::string_view changed) {
   constexpr std::size_t kHeader = 16, kNumber = 4;
   std::string file(changed);
-  const auto set = [&](std::size_t at, std::uint32_t value) {
-    std::string bytes;
-    put(bytes, value);
-    file.replace(at, kNumber, bytes);
-  };
+  const auto set = [&](std::size_t at, std::uint32_t value) { overwrite(file, at, value); };
   for (std::size_t at = kHeader; at + kHeader <= file.size();) {
     const std::size_t size = std::min<std::size_t>(get<std::uint32_t>(file, at + kNumber), file.size() - at - kHeader);
     set(at + kNumber, static_cast<std::uint32_t>(size));
