@@ -39,10 +39,15 @@ class Watch {
     const double clearance = options_.explore.planner.clearance;
     const Field<Dim> known = distance_to_patches<Dim>(explorer.surface().patches(), grid, 2.0 * clearance + 2.0 * grid.spacing);
     const Vec<Dim>& here = places_.back();
-    // Where the scanner stands closer than the clearance, as a start may, it may leave through what is near (candidates.h).
+    // Where the scanner stands closer than the clearance, as a start may, it may leave through what is near, and with the first step
+    // wherever the known distances of its ends leave no room for a surface (candidates.h).
     const Index<Dim> home = grid.nearest(here);
     const bool cramped = grid.inside(home) && static_cast<double>(known.at(home)) < clearance;
     const double near = cramped ? 2.0 * clearance + 2.0 * grid.spacing : std::sqrt(static_cast<double>(Dim)) * grid.spacing;
+    const auto free_around = [&](const Vec<Dim>& end, const Vec<Dim>& p) {
+      const Index<Dim> node = grid.nearest(end);
+      return static_cast<double>(known.at(node)) - (grid.position(node) - end).norm() > (p - end).norm();
+    };
     const auto safe = [&](const Vec<Dim>& p) {
       const Index<Dim> node = grid.nearest(p);
       if (!grid.inside(node)) return false;
@@ -58,7 +63,8 @@ class Watch {
       bool all_safe = true;
       for (int k = 0; k <= samples; ++k) {
         const Vec<Dim> p = way[i - 1] + piece * (static_cast<double>(k) / std::max(1, samples));
-        all_safe = all_safe && safe(p);
+        const bool stepping_out = cramped && i == 1 && (free_around(way[0], p) || free_around(way[1], p));
+        all_safe = all_safe && (stepping_out || safe(p));
         ending.least_clearance = std::min(ending.least_clearance, truth_.distance(p, 1.0));
       }
       ending.unsafe += all_safe ? 0 : 1;

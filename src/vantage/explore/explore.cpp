@@ -10,7 +10,6 @@
 #include "vantage/belief/belief.h"
 #include "vantage/field/distance.h"
 #include "vantage/planner/planner.h"
-#include "vantage/planner/safe_path.h"
 #include "vantage/scan/fill.h"
 
 namespace vantage {
@@ -184,7 +183,7 @@ struct Explorer<Dim>::Impl {
     decision.score = 0.0;
     for (const auto& [candidate, score] : decision.scored)
       if (candidate == target) decision.score = static_cast<double>(score);
-    decision.path = safe_path(planner->reachable(), target, visited.back());
+    decision.path = planner->way_to(place);
     path.resize(travelled);
     path.insert(path.end(), decision.path.begin(), decision.path.end());
     vantage_point = place;

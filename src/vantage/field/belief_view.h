@@ -4,6 +4,8 @@
 
 namespace vantage {
 
+inline constexpr std::size_t kNoNode = static_cast<std::size_t>(-1);
+
 /// What the belief shows the planner. Everything lives on one window over the domain; outside of it there is nothing to see.
 template <int Dim>
   requires SpatialDim<Dim>

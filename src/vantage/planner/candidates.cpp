@@ -113,6 +113,26 @@ struct Curvature {
 }  // namespace
 
 template <int Dim>
+std::size_t first_node(const BeliefView<Dim>& view, const Vec<Dim>& from, const std::function<bool(std::size_t)>& allowed) {
+  const Grid<Dim>& grid = view.window();
+  const Index<Dim> home = grid.nearest(from);
+  const double free = grid.inside(home) ? static_cast<double>(view.known_distance.at(home)) - (grid.position(home) - from).norm() : 0.0;
+  std::size_t best = kNoNode;
+  std::pair least{true, kInfinity};  // Whether a surface may stand between, and the distance.
+  int corners = 1;
+  for (int a = 0; a < Dim; ++a) corners *= 3;
+  for (int code = 0; code < corners; ++code) {
+    Index<Dim> node = home;
+    for (int a = 0, rest = code; a < Dim; ++a, rest /= 3) node[a] += rest % 3 - 1;
+    if (!grid.inside(node) || !allowed(grid.linear(node))) continue;
+    const double distance = (grid.position(node) - from).norm();
+    const std::pair rank{free + static_cast<double>(view.known_distance.at(node)) <= distance, distance};
+    if (rank < least) least = rank, best = grid.linear(node);
+  }
+  return best;
+}
+
+template <int Dim>
 Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, double clearance) {
   const Grid<Dim>& grid = view.window();
   const Index<Dim> home = grid.nearest(from);
@@ -123,21 +143,10 @@ Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<
       row[k] = view.seen(first + k) &&
                (static_cast<double>(view.known_distance[first + k]) >= clearance || (cramped && (grid.position(first + k) - from).norm() <= near));
   });
-  // The region of the nearest such node beside the scanner: another one beside it may lie behind a wall.
-  std::int32_t reached = -1;
-  double nearest = kInfinity;
-  int corners = 1;
-  for (int a = 0; a < Dim; ++a) corners *= 3;
-  for (int code = 0; code < corners; ++code) {
-    Index<Dim> node = home;
-    for (int a = 0, rest = code; a < Dim; ++a, rest /= 3) node[a] += rest % 3 - 1;
-    const std::int32_t region = grid.inside(node) ? passable.region_of(grid.linear(node)) : -1;
-    const double distance = (grid.position(node) - from).squaredNorm();
-    if (region < 0 || distance >= nearest) continue;
-    reached = region;
-    nearest = distance;
-  }
+  const std::size_t first = first_node<Dim>(view, from, [&](std::size_t node) { return passable.region_of(node) >= 0; });
   Field<Dim, std::uint8_t> nodes(grid);
+  if (first == kNoNode) return nodes;
+  const std::int32_t reached = passable.region_of(first);
   parallel_for(passable.rows(), 256, [&](std::size_t r) {
     std::uint8_t* row = nodes.values.data() + r * passable.row_length();
     for (const auto& run : passable.row(r))
@@ -205,6 +214,7 @@ std::vector<std::size_t> choose_candidates(std::span<const std::size_t> nodes, s
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                                                               \
+  template std::size_t first_node<D>(const BeliefView<D>&, const Vec<D>&, const std::function<bool(std::size_t)>&);                          \
   template Field<D, std::uint8_t> reachable_nodes<D>(const BeliefView<D>&, const Vec<D>&, double);                                           \
   template std::vector<std::size_t> medial_nodes<D>(const BeliefView<D>&, const Field<D, std::uint8_t>&, std::span<const Vec<D>>,            \
                                                     const PlannerOptions&);                                                                  \

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,11 @@ namespace vantage {
 /// Where `from` itself has less clearance, as a start may, any seen node near it will do.
 template <int Dim>
 [[nodiscard]] Field<Dim, std::uint8_t> reachable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, double clearance);
+
+/// Which of the `allowed` nodes beside `from` a way begins with: the nearest one with no known surface between, as the known distances of both ends
+/// add up to more than the step; the nearest if there is no such one; kNoNode if none is beside it.
+template <int Dim>
+[[nodiscard]] std::size_t first_node(const BeliefView<Dim>& view, const Vec<Dim>& from, const std::function<bool(std::size_t)>& allowed);
 
 /// Medial nodes of the seen space among the reachable ones: -lap(psi) > M/h, psi > 0.6 h, off the known surface, not within 2 h of `visited`. In
 /// order of their index. If there are none: all reachable nodes but those near `visited`.

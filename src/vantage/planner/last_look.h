@@ -10,8 +10,6 @@
 
 namespace vantage {
 
-inline constexpr std::size_t kNoNode = static_cast<std::size_t>(-1);
-
 /// Length of the unseen straight behind a face, at most `limit` [m].
 template <int Dim>
 [[nodiscard]] double depth_behind(const BeliefView<Dim>& view, const BoundaryFace<Dim>& face, double limit);

@@ -78,7 +78,7 @@ TYPED_TEST(PathsTest, PathsAreSafeAndNearlyShortest) {
     for (std::size_t i = 0; i < reachable.values.size(); ++i) reachable[i] = belief.state[i] == NodeState::seen;
     const Vec<Dim> here = on_axis<Dim>(-4.0), goal = on_axis<Dim>(4.0);
     const std::size_t target = reachable.window.linear(reachable.window.nearest(goal));
-    const auto path = safe_path<Dim>(reachable, target, here);
+    const auto path = safe_path<Dim>(reachable, reachable.window.linear(reachable.window.nearest(here)), target, here);
     ASSERT_GE(path.size(), 2U);
     EXPECT_EQ(path.front(), here);
     EXPECT_LT((path.back() - goal).norm(), 1e-9);
@@ -107,7 +107,7 @@ TYPED_TEST(PathsTest, PathsCutNoCorners) {
     for (std::size_t i = 0; i < reachable.values.size(); ++i) reachable[i] = random.uniform(0.0, 1.0) < 0.97;
     const std::size_t last = reachable.window.size() - 1;
     reachable[0] = reachable[last] = 1;
-    const auto path = safe_path<Dim>(reachable, last, Vec<Dim>::Zero());
+    const auto path = safe_path<Dim>(reachable, 0, last, Vec<Dim>::Zero());
     for (std::size_t i = 1; i < path.size(); ++i, ++pieces) {
       const Vec<Dim> way = path[i] - path[i - 1];
       const auto samples = static_cast<int>(way.norm() * 500.0);
@@ -122,9 +122,9 @@ TYPED_TEST(PathsTest, NoWayNoPath) {
   constexpr int Dim = TypeParam::value;
   Field<Dim, std::uint8_t> reachable(Grid<Dim>{1.0, Index<Dim>::Zero(), Index<Dim>::Constant(9)}, 1);
   for (std::size_t i = 0; i < reachable.values.size(); ++i) reachable[i] = reachable.window.local(i)[1] != 4;
-  const auto path = safe_path<Dim>(reachable, reachable.window.size() - 1, Vec<Dim>::Zero());
+  const auto path = safe_path<Dim>(reachable, 0, reachable.window.size() - 1, Vec<Dim>::Zero());
   EXPECT_EQ(path.size(), 2U);
-  const auto there = safe_path<Dim>(reachable, 0, Vec<Dim>::Zero());  // Already there.
+  const auto there = safe_path<Dim>(reachable, 0, 0, Vec<Dim>::Zero());  // Already there.
   EXPECT_EQ(there.size(), 2U);
 }
 

@@ -103,12 +103,8 @@ std::size_t Planner<Dim>::nearest_place(const Vec<Dim>& place) const {
 
 template <int Dim>
   requires SpatialDim<Dim>
-std::vector<Vec<Dim>> Planner<Dim>::path_to(std::size_t node, const Vec<Dim>& here) const {
-  if (!rule_.places) return safe_path(reachable_, node, here);
-  // By a rule we may stand off the places ourselves: first to the nearest of them.
-  std::vector<Vec<Dim>> path = safe_path(reachable_, node, reachable_.window.position(nearest_place(here)));
-  path.insert(path.begin(), here);
-  return path;
+std::vector<Vec<Dim>> Planner<Dim>::path_to(std::size_t node) const {
+  return safe_path(reachable_, first_, node, visited_.back());
 }
 
 template <int Dim>
@@ -142,8 +138,9 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   opening_.update(view, here, max_range_, &grid_);
   opacity_ = options_.lambda_factor * measured_opacity(view);
   reachable_ = rule_.places ? rule_.places(view, here) : reachable_nodes(view, here, options_.clearance);
-  const std::size_t home = options_.travel_weight > 0.0 ? nearest_place(here) : kNoNode;
-  if (home != kNoNode) walk_ = fast_march<Dim>(reachable_, std::array{Seed{home, 0.0F}});
+  // By a rule we may stand off the places ourselves: first to the nearest of them.
+  first_ = rule_.places ? nearest_place(here) : first_node<Dim>(view, here, [&](std::size_t node) { return reachable_[node] != 0; });
+  if (options_.travel_weight > 0.0 && first_ != kNoNode) walk_ = fast_march<Dim>(reachable_, std::array{Seed{first_, 0.0F}});
 
   auto seen_volume = static_cast<double>(seen_nodes(view));
   for (int a = 0; a < Dim; ++a) seen_volume *= view.window().spacing;
@@ -169,7 +166,7 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
     decision.score = best.score;
     decision.area = best.sums.area;
     for (const Scored& s : scored) decision.expected_volume = std::max(decision.expected_volume, s.sums.volume);
-    decision.path = path_to(best.node, here);
+    decision.path = path_to(best.node);
     last_.emplace_back(best.node, best.score);
     for (const Scored& s : scored)
       if (s.node != best.node) last_.emplace_back(s.node, s.score);
@@ -200,7 +197,7 @@ void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decisi
     decision.found = true;
     decision.end = Decision<Dim>::End::none;
     decision.position = view.window().position(*last_look_.place);
-    decision.path = path_to(*last_look_.place, visited_.back());
+    decision.path = path_to(*last_look_.place);
     return;
   }
   const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);

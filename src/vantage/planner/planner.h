@@ -98,6 +98,9 @@ class Planner {
   /// Where one may stand, as of the last decision (1, else 0).
   [[nodiscard]] const Field<Dim, std::uint8_t>& reachable() const { return reachable_; }
 
+  /// From where we are to a place, over the reachable node nearest to it, as of the last decision.
+  [[nodiscard]] std::vector<Vec<Dim>> way_to(const Vec<Dim>& place) const;
+
   /// E at given places, by the same terms and scale as the last decision; for pictures. NaN where no vantage point may be. Baselines: the ray form.
   [[nodiscard]] std::vector<double> evaluate(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places) const;
 
@@ -127,9 +130,8 @@ class Planner {
   void set_scale(std::span<const Scored> scored);
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view) const;
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view, const Field<Dim>* weight) const;
-  [[nodiscard]] std::vector<Vec<Dim>> path_to(std::size_t node, const Vec<Dim>& here) const;
+  [[nodiscard]] std::vector<Vec<Dim>> path_to(std::size_t node) const;
   [[nodiscard]] std::size_t nearest_place(const Vec<Dim>& place) const;
-  [[nodiscard]] std::vector<Vec<Dim>> way_to(const Vec<Dim>& place) const;
   [[nodiscard]] std::vector<std::size_t> candidates(const BeliefView<Dim>& view) const;
 
   PlannerOptions options_;
@@ -138,8 +140,9 @@ class Planner {
   OpeningModel<Dim> opening_;
   std::vector<Vec<Dim>> visited_;
   Field<Dim, std::uint8_t> reachable_;
-  Field<Dim> walk_;      // From the last scan to every reachable node [m]; empty: it does not count.
-  MarchGrid<Dim> grid_;  // Of the last decision's belief.
+  std::size_t first_ = kNoNode;  // Reachable node beside us, where ways begin.
+  Field<Dim> walk_;              // From the last scan to every reachable node [m]; empty: it does not count.
+  MarchGrid<Dim> grid_;          // Of the last decision's belief.
   std::optional<LazyPool<Dim>> pool_;
   Field<Dim> weight_;  // w per node; empty: 1 everywhere.
   StationRule<Dim> rule_;

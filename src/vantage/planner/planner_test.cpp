@@ -176,6 +176,21 @@ TYPED_TEST(PlannerTest, ClearanceClosesNarrowDoors) {
   EXPECT_FALSE(far_side(two_rooms<Dim>(0.0), 0.0));
 }
 
+/// Beside a thin wall at x = 0.12 the nearest free node is behind it; none in between, the nearest will do.
+TYPED_TEST(PlannerTest, AWayBeginsOnOurSideOfAWall) {
+  constexpr int Dim = TypeParam::value;
+  HandMade<Dim> belief(cube<Dim>(2.0), [](const Vec<Dim>&) { return NodeState::seen; });
+  const Grid<Dim>& grid = belief.state.window;
+  const Vec<Dim> from = on_axis<Dim>(0.1);
+  const auto beside = [&](std::size_t node) { return grid.nearest(grid.position(node)) != grid.nearest(from); };
+  EXPECT_EQ(grid.position(first_node<Dim>(belief.view(), from, beside)), on_axis<Dim>(0.25));
+  for (std::size_t i = 0; i < grid.size(); ++i) belief.known_distance[i] = static_cast<float>(std::abs(grid.position(i)[0] - 0.12));
+  EXPECT_LT(grid.position(first_node<Dim>(belief.view(), from, beside))[0], 0.12);
+  const auto behind = [&](std::size_t node) { return grid.position(node)[0] > 0.12; };
+  EXPECT_EQ(grid.position(first_node<Dim>(belief.view(), from, behind)), on_axis<Dim>(0.25));
+  EXPECT_EQ(first_node<Dim>(belief.view(), from, [](std::size_t) { return false; }), kNoNode);
+}
+
 TYPED_TEST(PlannerTest, MedialNodesOfACorridorLieOnItsMidline) {
   constexpr int Dim = TypeParam::value;
   const HandMade<Dim> corridor(cube<Dim>(4.0), [](const Vec<Dim>& p) { return std::abs(p[1]) < 1.6 ? NodeState::seen : NodeState::obstacle; });

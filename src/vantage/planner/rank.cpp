@@ -83,10 +83,9 @@ struct Entry {
 template <int Dim>
   requires SpatialDim<Dim>
 std::vector<Vec<Dim>> Planner<Dim>::way_to(const Vec<Dim>& place) const {
-  const Vec<Dim>& here = visited_.back();
   const std::size_t node = nearest_place(place);
-  if (node == kNoNode) return {here, place};
-  std::vector<Vec<Dim>> path = path_to(node, here);
+  if (node == kNoNode) return {visited_.back(), place};
+  std::vector<Vec<Dim>> path = path_to(node);
   if (reachable_.window.position(node) != place) path.push_back(place);
   return path;
 }

@@ -170,29 +170,16 @@ std::vector<std::size_t> pull_taut(const Field<Dim, std::uint8_t>& reachable, co
 }  // namespace
 
 template <int Dim>
-std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::size_t target, const Vec<Dim>& here) {
-  // The node beside the scanner that the flood started from.
+std::vector<Vec<Dim>> safe_path(const Field<Dim, std::uint8_t>& reachable, std::size_t first, std::size_t target, const Vec<Dim>& here) {
   const Grid<Dim>& grid = reachable.window;
-  std::size_t home = target;
-  double nearest = kInfinity;
-  const Index<Dim> center = grid.nearest(here);
-  for (int code = 0, all = 1 << (2 * Dim); code < all; ++code) {
-    Index<Dim> node = center;
-    for (int a = 0; a < Dim; ++a) node[a] += (code >> (2 * a) & 3) - 1;
-    if (!grid.inside(node) || reachable.at(node) == 0) continue;
-    const double distance = (grid.position(node) - here).squaredNorm();
-    if (distance >= nearest) continue;
-    nearest = distance;
-    home = grid.linear(node);
-  }
-  std::vector<std::size_t> way{home, target};
-  if (!clear_line(reachable, home, target)) way = pull_taut(reachable, Search<Dim>(reachable).run(home, target));
+  std::vector<std::size_t> way{first, target};
+  if (!clear_line(reachable, first, target)) way = pull_taut(reachable, Search<Dim>(reachable).run(first, target));
   std::vector<Vec<Dim>> path{here};
-  for (std::size_t i = home == target ? 1 : 0; i < way.size(); ++i) path.push_back(grid.position(way[i]));
+  for (std::size_t i = first == target ? 1 : 0; i < way.size(); ++i) path.push_back(grid.position(way[i]));
   return path;
 }
 
-template std::vector<Vec<2>> safe_path<2>(const Field<2, std::uint8_t>&, std::size_t, const Vec<2>&);
-template std::vector<Vec<3>> safe_path<3>(const Field<3, std::uint8_t>&, std::size_t, const Vec<3>&);
+template std::vector<Vec<2>> safe_path<2>(const Field<2, std::uint8_t>&, std::size_t, std::size_t, const Vec<2>&);
+template std::vector<Vec<3>> safe_path<3>(const Field<3, std::uint8_t>&, std::size_t, std::size_t, const Vec<3>&);
 
 }  // namespace vantage
