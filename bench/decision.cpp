@@ -144,7 +144,8 @@ void stages(const BeliefView<3>& view, OpeningModel<3> opening, std::span<const 
   if (nodes.empty()) return;
   plain_sums(view, opening.faces(), march, nodes);
   const std::size_t best = nodes[static_cast<std::size_t>(std::max_element(volumes.begin(), volumes.end()) - volumes.begin())];
-  (void)timed("path", [&] { return safe_path(reachable, best, here).size(); });
+  const std::size_t first = first_node<3>(view, here, [&](std::size_t node) { return reachable[node] != 0; });
+  (void)timed("path", [&] { return safe_path(reachable, first, best, here).size(); });
   (void)timed("verdict", [&] { return assess<3>(view, opening.faces(), reachable, {opacity, range, 0.0}).unseen.size(); });
   std::size_t seen = 0;
   for (const NodeState s : view.state.values) seen += s == NodeState::seen;
