@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/surface/whole.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -23,22 +22,23 @@ void each_leaf_near(const Node<Dim>& node, const Cell<Dim>& cell, const Box<Dim>
 /// The patch in coordinates of its own: the first `Rank` axes span it.
 template <int Rank, int Dim>
 std::pair<Frame<Dim>, ConvexRegion<Rank>> own_frame(const Patch<Dim>& patch) {
-  Eigen::Matrix<double, Dim, Rank> spans = Eigen::Matrix<double, Dim, Rank>::Zero();
-  for (int axis = 0; axis < Rank; ++axis) {  // The corner farthest from what is spanned already.
-    double most = -1.0;
-    for (const Vec<Dim>& corner : patch.corners()) {
-      Vec<Dim> way = corner - patch.vertices[0];
-      for (int k = 0; k < axis; ++k) way -= spans.col(k) * spans.col(k).dot(way);
-      if (way.norm() > most) {
-        most = way.norm();
-        spans.col(axis) = way;
-      }
-    }
-    spans.col(axis) /= std::max(most, 1e-300);
-  }
   Frame<Dim> frame;
   frame.origin = patch.vertices[0];
-  frame.axes = Eigen::HouseholderQR<Eigen::Matrix<double, Dim, Rank>>(spans).householderQ();
+  double longest = 0.0;
+  for (int axis = 0; axis < Dim; ++axis) {  // Towards the corner farthest from what is spanned already; if there is none, the unit vector that is.
+    Vec<Dim> best = Vec<Dim>::Zero();
+    const auto offer = [&](Vec<Dim> way) {
+      for (int pass = 0; pass < 2; ++pass)  // Twice is enough for all digits.
+        for (int k = 0; k < axis; ++k) way -= frame.axes.col(k) * frame.axes.col(k).dot(way);
+      if (way.squaredNorm() > best.squaredNorm()) best = way;
+    };
+    if (axis < Rank)
+      for (const Vec<Dim>& corner : patch.corners()) offer(corner - frame.origin);
+    longest = std::max(longest, best.norm());
+    if (best.norm() <= 1e-12 * longest)
+      for (int k = 0; k < Dim; ++k) offer(Vec<Dim>::Unit(k));
+    frame.axes.col(axis) = best / best.norm();
+  }
   ConvexRegion<Rank> region;
   for (const Vec<Dim>& corner : patch.corners()) region.vertices[region.count++] = frame.local(corner).template head<Rank>();
   if constexpr (Rank == 2) {
