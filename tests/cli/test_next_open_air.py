@@ -48,3 +48,18 @@ def test_level_ground_is_not_taken_for_the_same_scan(vantage, yard, tmp_path):
     ask(vantage, *scans, "--at", "-9,-9,1.6", "--at", "9,-9,1.6", "--voxel", 0.5, "--eta", 0.1)
     moved = vantage("next", scans[0], scans[0], "--at", "-9,-9,1.6", "--at", "9,-9,1.6", "--voxel", 0.5, "--eta", 0.1)
     assert moved.returncode == 2 and "a scan counts once" in moved.stderr
+
+
+def test_the_height_does_not_creep_up(vantage, yard, tmp_path):
+    """Where each station is taken as proposed, ten rounds later the scanner still stands as high above the ground as at first."""
+    places, scans = [[0.0, 0.0, 1.6]], []
+    for number in range(10):
+        result = vantage("scan", yard, "--step-deg", 3, "--at", at(places[-1]), "--noise", 0.01, "--seed", number, "-o", tmp_path / f"{number}.ply", "-q")
+        assert result.returncode == 0, result.stderr
+        scans.append(tmp_path / f"{number}.ply")
+        poses = [x for place in places for x in ("--at", at(place))]
+        result = ask(vantage, *scans, *poses, "--domain", at(DOMAIN), "--voxel", 0.5, "--eta", 0.1, codes=(0, 6))
+        assert len(result["ranked"]) > 1, number
+        for place in result["ranked"]:
+            assert place["vantage"][2] == pytest.approx(1.6, abs=0.25), number
+        places.append([round(x, 3) for x in result["vantage"]])

@@ -2,6 +2,8 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "vantage/field/belief_view.h"
 
@@ -23,9 +25,13 @@ template <int Dim>
 [[nodiscard]] Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options,
                                                       const std::function<bool(const Vec<Dim>&)>& closed = {});
 
-/// Height of `from` above the known ground straight below it or, where that was not seen, the median over the columns within `reach`; infinity if
-/// there is none [m].
+/// Heights of places above the known ground straight below each or, where that was not seen, the median over the columns within `reach`; infinity
+/// where there is none [m].
 template <int Dim>
-[[nodiscard]] double height_above_ground(const BeliefView<Dim>& view, const Vec<Dim>& from, double reach);
+[[nodiscard]] std::vector<double> heights_above_ground(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places, double reach);
+
+/// Height of the ground below a seen place, seen all the way down to it [m]; minus infinity if there is none.
+template <int Dim>
+[[nodiscard]] double ground_below(const BeliefView<Dim>& view, const Vec<Dim>& place);
 
 }  // namespace vantage

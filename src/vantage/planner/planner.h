@@ -42,6 +42,8 @@ template <int Dim>
 struct StationRule {
   std::function<Field<Dim, std::uint8_t>(const BeliefView<Dim>&, const Vec<Dim>& here)> places;
   bool all = false;  ///< Every such node is a candidate (a layer above the ground has no medial axis); false: the medial ones.
+  /// Where exactly a scanner stands that is put near such a node; of several candidates there only the nearest node counts. None: at the node.
+  std::function<Vec<Dim>(const BeliefView<Dim>&, const Vec<Dim>& node)> stand = {};
   std::function<double(const Vec<Dim>&)> worth = {};  ///< Times the weight w of a place [1]; none: 1 everywhere.
   std::optional<Elevations> coverage = {};            ///< Nothing is expected of other directions; none: of all.
 };
@@ -130,6 +132,8 @@ class Planner {
   [[nodiscard]] std::vector<Vec<Dim>> path_to(std::size_t node, const Vec<Dim>& here) const;
   [[nodiscard]] std::size_t nearest_place(const Vec<Dim>& place) const;
   [[nodiscard]] std::vector<Vec<Dim>> way_to(const Vec<Dim>& place) const;
+  [[nodiscard]] Vec<Dim> place_at(const BeliefView<Dim>& view, std::size_t node) const;
+  void go_to(const BeliefView<Dim>& view, std::size_t node, Decision<Dim>& decision) const;
   [[nodiscard]] std::vector<std::size_t> candidates(const BeliefView<Dim>& view) const;
 
   PlannerOptions options_;
