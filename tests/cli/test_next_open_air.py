@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """vantage next in the open, on clouds of hits alone: nothing is known of the sky, and it is not waited for."""
 
+import math
+
 import pytest
-from next_scenes import ask, at, write_slabs
+from next_scenes import COARSE, ask, at, write_slabs
 
 DOMAIN = (-10, -8, -1, 10, 8, 6)  # With as much sky above the walls as below their tops.
 ROUNDS = 5
@@ -63,3 +65,16 @@ def test_the_height_does_not_creep_up(vantage, yard, tmp_path):
         for place in result["ranked"]:
             assert place["vantage"][2] == pytest.approx(1.6, abs=0.25), number
         places.append([round(x, 3) for x in result["vantage"]])
+
+
+def test_a_loop_beside_a_bench_goes_on(vantage, tmp_path):
+    """A station that nearly touches a bench stands on the ground, not on the bench, from where no way leads on."""
+    scene = tmp_path / "bench.obj"
+    write_slabs(scene, [((-12, -12, -1), (12, 12, 0)), ((-3, 0, 0), (-0.55, 0.5, 0.55)), ((3, 0, 0), (5, 5, 2))])
+    place = [-1.5, -0.1, 1.6]  # The cell right below is the bench's.
+    scan = hits(vantage, scene, place, tmp_path / "scan.ply", noise=0.005)
+    result = ask(vantage, scan, "--at", at(place), "--domain", "-7,-6,-1,7,6,4", *COARSE)
+    assert len(result["ranked"]) == 5
+    for found in result["ranked"]:
+        assert math.hypot(found["vantage"][0] - place[0], found["vantage"][1] - place[1]) > 2
+        assert found["vantage"][2] == pytest.approx(1.6, abs=0.25)

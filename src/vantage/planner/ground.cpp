@@ -11,6 +11,8 @@ namespace vantage {
 namespace {
 
 constexpr double kFarthest = 6.0;  // Ground that far from the scanner may still be its own [m].
+constexpr double kAround = 1.0;    // A table or a kerb beside the scanner is less of the ground around it [m].
+constexpr double kUpright = 4.0;   // How high the scanner stands is known better than what is free right below: so much more heights count.
 
 /// A place to stand, in one column of the lattice.
 struct Floor {
@@ -81,23 +83,24 @@ class Floors {
     }
   }
 
-  /// Of a place above the ground straight below it, or the median of the columns within `reach`.
+  /// Of a place: the median of the columns right around it or, if none has a floor, of those within `reach`.
   [[nodiscard]] double height_of(const Vec<Dim>& place, double reach) const {
-    double nearest = kInfinity, straight = kInfinity;
-    std::vector<double> heights;
+    const double near = std::max(kAround, 2.0 * grid_.spacing);
+    std::vector<double> around, all;
     for (std::size_t c = 0; c < columns_; ++c) {
       double least = kInfinity;  // The uppermost floor below the scanner counts.
       Vec<Dim> foot = grid_.position(c);
       foot[kUp] = place[kUp];
       const double away = (foot - place).norm();
-      if (away > reach) continue;
+      if (away > std::max(near, reach)) continue;
       for (const Floor& floor : floors_[c])
         if (floor.ground < place[kUp]) least = std::min(least, place[kUp] - floor.ground);
       if (!(least < kInfinity)) continue;
-      heights.push_back(least);
-      if (away < nearest) nearest = away, straight = least;
+      all.push_back(least);
+      if (away <= near) around.push_back(least);
     }
-    if (nearest <= grid_.spacing || heights.empty()) return straight;
+    std::vector<double>& heights = around.empty() ? all : around;
+    if (heights.empty()) return kInfinity;
     std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2), heights.end());
     return heights[heights.size() / 2];
   }
@@ -148,7 +151,9 @@ Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<D
   std::size_t column = floors.columns(), first = 0;
   for (std::size_t c = 0; c < floors.columns(); ++c)
     for (std::size_t f = 0; f < floors.column(c).size(); ++f) {
-      const double distance = (floors.foot(c, floors.column(c)[f]) - below).norm();
+      Vec<Dim> offset = floors.foot(c, floors.column(c)[f]) - below;
+      offset[Dim - 1] *= kUpright;
+      const double distance = offset.norm();
       if (distance >= nearest) continue;
       nearest = distance;
       column = c;

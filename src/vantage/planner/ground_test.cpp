@@ -147,5 +147,22 @@ TYPED_TEST(GroundTest, HeightIsTheMedianAroundWhereNothingIsSeenStraightBelow) {
   EXPECT_NEAR(height_of<Dim>(belief.view(), above<Dim>(0.0, 1.6)), 1.6, 1e-6);
 }
 
+TYPED_TEST(GroundTest, WhoStandsBesideABenchIsNotOnIt) {
+  constexpr int Dim = TypeParam::value;
+  const auto belief = land<Dim>([](const Vec<Dim>& p) { return std::abs(p[0]) < 0.3 ? 0.5 : 0.0; });
+  for (const double x : {-0.5, -0.25}) {  // The nearest column is the floor's, and the bench's.
+    const Vec<Dim> here = above<Dim>(x, 1.6);
+    EXPECT_NEAR(height_of<Dim>(belief.view(), here), 1.6, 1e-6) << x;
+    GroundOptions options = kWalker;
+    options.height = 1.6;
+    EXPECT_EQ(reach<Dim>(walkable_nodes<Dim>(belief.view(), here, options))[0], -4.0) << x;
+    const auto narrow = [](const Vec<Dim>& p) { return p[0] > -1.3 && p[0] < -0.3; };  // Nobody may stand right below.
+    const auto [left, right] = reach<Dim>(walkable_nodes<Dim>(belief.view(), here, options, narrow));
+    EXPECT_GT(right - left, 1.0) << x;
+  }
+  const auto stage = land<Dim>([](const Vec<Dim>& p) { return p[0] > 0.1 ? 0.5 : 0.0; });
+  EXPECT_NEAR(height_of<Dim>(stage.view(), above<Dim>(1.5, 2.1)), 1.6, 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

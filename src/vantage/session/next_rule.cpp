@@ -102,12 +102,15 @@ class Rule {
     const Box<Dim> cell = Box<Dim>{p, p}.grown(0.5 * spacing);
     return std::any_of(closed_.begin(), closed_.end(), [&](const Zone& zone) { return zone.template meets<Dim>(cell); });
   }
-  /// As asked for, or the median of the scans so far, each above the ground as it is known now.
+  /// As asked for, or the median of the scans so far, each above the ground as it is known now. What the lattice cannot tell from the first counts as
+  /// that: a tripod keeps its height, and small errors of many stations do not add up.
   double height_at(const BeliefView<Dim>& view) const {
     if (options_.height > 0.0) return options_.height;
     std::vector<double> heights = heights_above_ground<Dim>(view, scanned_, kGroundReach);
     std::erase_if(heights, [](double height) { return !(height < kInfinity) || height <= 0.1; });
     if (heights.empty()) return kInfinity;
+    for (double& height : heights)
+      if (std::abs(height - heights[0]) <= 0.5 * view.window().spacing) height = heights[0];
     std::sort(heights.begin(), heights.end());
     return 0.5 * (heights[heights.size() / 2] + heights[(heights.size() - 1) / 2]);
   }
