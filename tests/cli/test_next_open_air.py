@@ -78,3 +78,17 @@ def test_a_loop_beside_a_bench_goes_on(vantage, tmp_path):
     for found in result["ranked"]:
         assert math.hypot(found["vantage"][0] - place[0], found["vantage"][1] - place[1]) > 2
         assert found["vantage"][2] == pytest.approx(1.6, abs=0.25)
+
+
+def test_of_unknown_directions_nothing_is_expected(vantage, tmp_path):
+    """On bare ground with a wall in the north: what is unseen in the south, above the ground, no scan can show."""
+    scene, place = tmp_path / "wall.obj", [0.0, 0.0, 1.6]
+    write_slabs(scene, [((-12, -12, -1), (12, 12, 0)), ((-9, 4, 0), (9, 5, 5))])
+    scan = hits(vantage, scene, place, tmp_path / "scan.ply", noise=0)
+    common = ("--domain", at(DOMAIN), "--voxel", 0.5, "--eta", 0.1, "--no-return", "unknown")
+    before = ask(vantage, scan, "--at", at(place), *common, codes=(0, 6))
+    assert any("in every direction" in note for note in before["notes"])
+    for best in before["ranked"]:
+        again = hits(vantage, scene, best["vantage"], tmp_path / "again.ply", noise=0)
+        after = ask(vantage, scan, again, "--at", at(place), "--at", at(best["vantage"]), *common, codes=(0, 6))
+        assert best["new_volume_m3"] < 3 * (after["seen_m3"] - before["seen_m3"]) + 3

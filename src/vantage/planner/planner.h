@@ -35,6 +35,7 @@ struct Decision {
 struct Elevations {
   double lowest = -1.0, highest = 1.0;
   bool by_hits = false;  ///< Of each scan no higher than its highest hit: a cloud without the rays that met nothing says nothing of the sky.
+  bool each_way = false;  ///< The highest hit of every azimuth counts for itself: rays that met nothing say nothing, wherever they went.
 };
 
 /// Where a scanner may be put, if not wherever reachable_nodes() says: the nodes (1), given the belief and where we are.
