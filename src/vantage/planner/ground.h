@@ -19,8 +19,9 @@ struct GroundOptions {
 
 /// Nodes a scanner on legs may be put at: seen, at `height` (to within a cell) above known ground, all below it seen and free, at `clearance` from
 /// the known surfaces, and joined to the ground nearest to `height` below `from`, heights counting four times, over slopes and steps that can be
-/// walked (1, else 0). None if no ground is known so within 6 m or twice the height, whichever is more. The ground is where an obstacle node lies below a seen one; its height is good to a
-/// small part of a cell, by the distance to the known surface. Nodes that are `closed` cannot be stood at, nor walked through below.
+/// walked (1, else 0). None if no ground is known so within 6 m or twice the height, whichever is more. The ground is where an obstacle node lies
+/// below a seen one; its height is good to a small part of a cell, by the distance to the known surface. Nodes that are `closed` cannot be stood at,
+/// nor walked through below.
 template <int Dim>
 [[nodiscard]] Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<Dim>& from, const GroundOptions& options,
                                                       const std::function<bool(const Vec<Dim>&)>& closed = {});

@@ -34,7 +34,7 @@ struct Decision {
 /// The elevations that a scan can say something of, as sines; all by default.
 struct Elevations {
   double lowest = -1.0, highest = 1.0;
-  bool by_hits = false;  ///< Of each scan no higher than its highest hit: a cloud without the rays that met nothing says nothing of the sky.
+  bool by_hits = false;   ///< Of each scan no higher than its highest hit: a cloud without the rays that met nothing says nothing of the sky.
   bool each_way = false;  ///< The highest hit of every azimuth counts for itself: rays that met nothing say nothing, wherever they went.
 };
 

@@ -352,7 +352,7 @@ double RayMarch<Dim>::weight_at(const Vec<Dim>& place) const {
 
 template <int Dim>
 std::size_t sector_of(const Vec<Dim>& direction, std::size_t sectors) {
-  const double turn = Dim == 3 ? 0.5 + angle_of(direction[1], direction[0]) / (2.0 * kPi) : direction[0] < 0.0 ? 0.0 : 0.5;
+  const double turn = std::array{direction[0] < 0.0 ? 0.0 : 0.5, 0.5 + angle_of(direction[1], direction[0]) / (2.0 * kPi)}[Dim - 2];
   return std::min(static_cast<std::size_t>(turn * static_cast<double>(sectors)), sectors - 1);
 }
 

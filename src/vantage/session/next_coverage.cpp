@@ -107,7 +107,11 @@ std::string ScanCoverage::note(double beyond) const {
   if (!(beyond > 0.0) || !limits()) return {};
   return fmt::format(
       "The scans say something of elevations from {:.0f} to {:.0f} degrees{}; nothing is expected beyond: {} m³ of the unseen are out of scope.",
-      elevation_deg(all.lowest), elevation_deg(all.highest), all.each_way ? ", in every direction up to the highest hit" : all.by_hits ? ", each up to its highest hit" : "", amount_text(beyond));
+      elevation_deg(all.lowest), elevation_deg(all.highest),
+      all.each_way  ? ", in every direction up to the highest hit"
+      : all.by_hits ? ", each up to its highest hit"
+                    : "",
+      amount_text(beyond));
 }
 
 Json ScanCoverage::json(double beyond) const {
