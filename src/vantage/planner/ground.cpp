@@ -11,6 +11,8 @@ namespace vantage {
 namespace {
 
 constexpr double kFarthest = 6.0;  // Ground that far from the scanner may still be its own [m].
+constexpr double kAround = 1.0;    // A table or a kerb beside the scanner is less of the ground around it [m].
+constexpr double kUpright = 4.0;   // How high the scanner stands is known better than what is free right below: so much more heights count.
 
 /// A place to stand, in one column of the lattice.
 struct Floor {
@@ -18,6 +20,13 @@ struct Floor {
   double ground = 0.0;     ///< Height [m].
   bool reached = false;
 };
+
+/// Height of the ground right below a seen node [m].
+template <int Dim>
+double ground_at(const BeliefView<Dim>& view, std::size_t above) {
+  const double gap = std::min(static_cast<double>(view.known_distance[above]), 2.0 * view.window().spacing);
+  return view.window().position(above)[Dim - 1] - gap;
+}
 
 /// All floors of all columns.
 template <int Dim>
@@ -74,17 +83,35 @@ class Floors {
     }
   }
 
+  /// Of a place: the median of the columns right around it or, if none has a floor, of those within `reach`.
+  [[nodiscard]] double height_of(const Vec<Dim>& place, double reach) const {
+    const double near = std::max(kAround, 2.0 * grid_.spacing);
+    std::vector<double> around, all;
+    for (std::size_t c = 0; c < columns_; ++c) {
+      double least = kInfinity;  // The uppermost floor below the scanner counts.
+      Vec<Dim> foot = grid_.position(c);
+      foot[kUp] = place[kUp];
+      const double away = (foot - place).norm();
+      if (away > std::max(near, reach)) continue;
+      for (const Floor& floor : floors_[c])
+        if (floor.ground < place[kUp]) least = std::min(least, place[kUp] - floor.ground);
+      if (!(least < kInfinity)) continue;
+      all.push_back(least);
+      if (away <= near) around.push_back(least);
+    }
+    std::vector<double>& heights = around.empty() ? all : around;
+    if (heights.empty()) return kInfinity;
+    std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2), heights.end());
+    return heights[heights.size() / 2];
+  }
+
  private:
   static constexpr int kUp = Dim - 1;
 
   void find(std::size_t c) {
-    for (std::int32_t k = 0; k + 1 < levels(); ++k) {
-      const std::size_t above = node(c, k + 1);
-      if (view_.state[node(c, k)] != NodeState::obstacle || !view_.seen(above)) continue;
-      const double top = grid_.position(above)[kUp];
-      const double gap = std::min(static_cast<double>(view_.known_distance[above]), 2.0 * grid_.spacing);
-      floors_[c].push_back({k + 1, top - gap});
-    }
+    for (std::int32_t k = 0; k + 1 < levels(); ++k)
+      if (view_.state[node(c, k)] == NodeState::obstacle && view_.seen(node(c, k + 1)))
+        floors_[c].push_back({k + 1, ground_at(view_, node(c, k + 1))});
   }
   [[nodiscard]] bool is_free(std::size_t c, const Floor& floor, const GroundOptions& options) const {
     const double clearance = std::min(options.clearance, 0.9 * options.height);
@@ -124,7 +151,9 @@ Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<D
   std::size_t column = floors.columns(), first = 0;
   for (std::size_t c = 0; c < floors.columns(); ++c)
     for (std::size_t f = 0; f < floors.column(c).size(); ++f) {
-      const double distance = (floors.foot(c, floors.column(c)[f]) - below).norm();
+      Vec<Dim> offset = floors.foot(c, floors.column(c)[f]) - below;
+      offset[Dim - 1] *= kUpright;
+      const double distance = offset.norm();
       if (distance >= nearest) continue;
       nearest = distance;
       column = c;
@@ -139,31 +168,32 @@ Field<Dim, std::uint8_t> walkable_nodes(const BeliefView<Dim>& view, const Vec<D
 }
 
 template <int Dim>
-double height_above_ground(const BeliefView<Dim>& view, const Vec<Dim>& from, double reach) {
+std::vector<double> heights_above_ground(const BeliefView<Dim>& view, std::span<const Vec<Dim>> places, double reach) {
   Floors<Dim> floors(view);
-  double nearest = kInfinity, straight = kInfinity;
   std::vector<double> heights;
-  for (std::size_t c = 0; c < floors.columns(); ++c) {
-    double least = kInfinity;  // The uppermost floor below the scanner counts.
-    Vec<Dim> foot = view.window().position(c);
-    foot[Dim - 1] = from[Dim - 1];
-    const double away = (foot - from).norm();
-    if (away > reach) continue;
-    for (const Floor& floor : floors.column(c))
-      if (floor.ground < from[Dim - 1]) least = std::min(least, from[Dim - 1] - floor.ground);
-    if (!(least < kInfinity)) continue;
-    heights.push_back(least);
-    if (away < nearest) nearest = away, straight = least;
+  for (const Vec<Dim>& place : places) heights.push_back(floors.height_of(place, reach));
+  return heights;
+}
+
+template <int Dim>
+double ground_below(const BeliefView<Dim>& view, const Vec<Dim>& place) {
+  const Grid<Dim>& grid = view.window();
+  Index<Dim> node = grid.nearest(place);
+  if (!grid.inside(node) || !view.seen(grid.linear(node))) return -kInfinity;
+  while (node[Dim - 1] > 0) {
+    const std::size_t above = grid.linear(node);
+    --node[Dim - 1];
+    if (view.state.at(node) == NodeState::obstacle) return ground_at(view, above);
+    if (!view.seen(grid.linear(node))) return -kInfinity;
   }
-  if (nearest <= view.window().spacing || heights.empty()) return straight;
-  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2), heights.end());
-  return heights[heights.size() / 2];
+  return -kInfinity;
 }
 
 #define VANTAGE_INSTANTIATE(D)                                                                                 \
   template Field<D, std::uint8_t> walkable_nodes<D>(const BeliefView<D>&, const Vec<D>&, const GroundOptions&, \
                                                     const std::function<bool(const Vec<D>&)>&);                \
-  template double height_above_ground<D>(const BeliefView<D>&, const Vec<D>&, double);
+  template std::vector<double> heights_above_ground<D>(const BeliefView<D>&, std::span<const Vec<D>>, double); \
+  template double ground_below<D>(const BeliefView<D>&, const Vec<D>&);
 VANTAGE_INSTANTIATE(2)
 VANTAGE_INSTANTIATE(3)
 

@@ -29,6 +29,11 @@ Vec<Dim> above(double x, double up) {
   return p;
 }
 
+template <int Dim>
+double height_of(const BeliefView<Dim>& view, const Vec<Dim>& place) {
+  return heights_above_ground<Dim>(view, std::array{place}, 6.0)[0];
+}
+
 /// Along the first axis: from where to where there are walkable nodes [m].
 template <int Dim>
 std::array<double, 2> reach(const Field<Dim, std::uint8_t>& nodes) {
@@ -44,10 +49,23 @@ std::array<double, 2> reach(const Field<Dim, std::uint8_t>& nodes) {
 TYPED_TEST(GroundTest, LevelGroundIsWalkableAtTheHeight) {
   constexpr int Dim = TypeParam::value;
   const auto belief = land<Dim>([](const Vec<Dim>&) { return 0.0; });
-  EXPECT_NEAR(height_above_ground<Dim>(belief.view(), above<Dim>(0.0, 1.37), 6.0), 1.37, 1e-6);
+  EXPECT_NEAR(height_of<Dim>(belief.view(), above<Dim>(0.0, 1.37)), 1.37, 1e-6);
   const auto nodes = walkable_nodes<Dim>(belief.view(), above<Dim>(0.0, 1.5), kWalker);
   for (std::size_t i = 0; i < nodes.values.size(); ++i)
     ASSERT_EQ(nodes[i] != 0, std::abs(nodes.window.position(i)[Dim - 1] - 1.5) < 1e-9) << nodes.window.position(i).transpose();
+}
+
+TYPED_TEST(GroundTest, GroundIsFoundBelowWhatIsSeenDownToIt) {
+  constexpr int Dim = TypeParam::value;
+  const HandMade<Dim> belief(cube<Dim>(4.0), [](const Vec<Dim>& p) {
+    if (p[Dim - 1] <= -0.9) return NodeState::obstacle;
+    return p[0] > 0.9 && p[Dim - 1] < 1.0 ? NodeState::unseen : NodeState::seen;
+  });
+  EXPECT_NEAR(ground_below<Dim>(belief.view(), above<Dim>(0.0, 2.0)), -1.0, 1e-6);
+  EXPECT_NEAR(ground_below<Dim>(belief.view(), above<Dim>(0.1, -0.7)), -1.0, 1e-6);
+  EXPECT_EQ(ground_below<Dim>(belief.view(), above<Dim>(2.0, 2.0)), -kInfinity);   // Not seen all the way down.
+  EXPECT_EQ(ground_below<Dim>(belief.view(), above<Dim>(0.0, -2.0)), -kInfinity);  // Below it.
+  EXPECT_EQ(ground_below<Dim>(belief.view(), above<Dim>(9.0, 2.0)), -kInfinity);
 }
 
 TYPED_TEST(GroundTest, SlopesUpToTheSteepestAreWalked) {
@@ -116,7 +134,7 @@ TYPED_TEST(GroundTest, UnseenAndMissingGroundAreNotWalked) {
   EXPECT_EQ(reach<Dim>(walkable_nodes<Dim>(hidden.view(), above<Dim>(-2.0, 1.5), kWalker)), (std::array{-4.0, 0.75}));
   const HandMade<Dim> sky(cube<Dim>(4.0), [](const Vec<Dim>&) { return NodeState::seen; });
   EXPECT_EQ(reach<Dim>(walkable_nodes<Dim>(sky.view(), above<Dim>(0.0, 1.5), kWalker))[0], kInfinity);
-  EXPECT_EQ(height_above_ground<Dim>(sky.view(), above<Dim>(0.0, 1.5), 6.0), kInfinity);
+  EXPECT_EQ(height_of<Dim>(sky.view(), above<Dim>(0.0, 1.5)), kInfinity);
 }
 
 TYPED_TEST(GroundTest, HeightIsTheMedianAroundWhereNothingIsSeenStraightBelow) {
@@ -126,7 +144,24 @@ TYPED_TEST(GroundTest, HeightIsTheMedianAroundWhereNothingIsSeenStraightBelow) {
     if (std::abs(p[0]) < 1.1) return p[Dim - 1] <= 1e-9 ? NodeState::obstacle : p[Dim - 1] < 1.0 ? NodeState::unseen : NodeState::seen;
     return p[Dim - 1] <= ground + 1e-9 ? NodeState::obstacle : NodeState::seen;
   });
-  EXPECT_NEAR(height_above_ground<Dim>(belief.view(), above<Dim>(0.0, 1.6), 6.0), 1.6, 1e-6);
+  EXPECT_NEAR(height_of<Dim>(belief.view(), above<Dim>(0.0, 1.6)), 1.6, 1e-6);
+}
+
+TYPED_TEST(GroundTest, WhoStandsBesideABenchIsNotOnIt) {
+  constexpr int Dim = TypeParam::value;
+  const auto belief = land<Dim>([](const Vec<Dim>& p) { return std::abs(p[0]) < 0.3 ? 0.5 : 0.0; });
+  for (const double x : {-0.5, -0.25}) {  // The nearest column is the floor's, and the bench's.
+    const Vec<Dim> here = above<Dim>(x, 1.6);
+    EXPECT_NEAR(height_of<Dim>(belief.view(), here), 1.6, 1e-6) << x;
+    GroundOptions options = kWalker;
+    options.height = 1.6;
+    EXPECT_EQ(reach<Dim>(walkable_nodes<Dim>(belief.view(), here, options))[0], -4.0) << x;
+    const auto narrow = [](const Vec<Dim>& p) { return p[0] > -1.3 && p[0] < -0.3; };  // Nobody may stand right below.
+    const auto [left, right] = reach<Dim>(walkable_nodes<Dim>(belief.view(), here, options, narrow));
+    EXPECT_GT(right - left, 1.0) << x;
+  }
+  const auto stage = land<Dim>([](const Vec<Dim>& p) { return p[0] > 0.1 ? 0.5 : 0.0; });
+  EXPECT_NEAR(height_of<Dim>(stage.view(), above<Dim>(1.5, 2.1)), 1.6, 1e-6);
 }
 
 }  // namespace

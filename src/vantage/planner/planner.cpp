@@ -82,9 +82,19 @@ std::vector<std::size_t> Planner<Dim>::candidates(const BeliefView<Dim>& view) c
   for (std::size_t i = 0; i < reachable_.values.size(); ++i) {
     const Vec<Dim> p = view.window().position(i);
     const auto near = [&](const Vec<Dim>& v) { return (p - v).norm() < 2.0 * view.window().spacing; };
-    if (reachable_[i] != 0 && std::none_of(visited_.begin(), visited_.end(), near)) nodes.push_back(i);
+    if (reachable_[i] == 0 || std::any_of(visited_.begin(), visited_.end(), near)) continue;
+    const Index<Dim> nearest = view.window().nearest(place_at(view, i));
+    if (nearest == view.window().local(i) || !view.window().inside(nearest) || reachable_.at(nearest) == 0) nodes.push_back(i);
   }
   return nodes;
+}
+
+/// Where a scanner stands that is put at a node.
+template <int Dim>
+  requires SpatialDim<Dim>
+Vec<Dim> Planner<Dim>::place_at(const BeliefView<Dim>& view, std::size_t node) const {
+  const Vec<Dim> p = view.window().position(node);
+  return rule_.stand ? rule_.stand(view, p) : p;
 }
 
 /// The reachable node nearest to a place; kNoNode if nothing is reachable.
@@ -105,6 +115,14 @@ template <int Dim>
   requires SpatialDim<Dim>
 std::vector<Vec<Dim>> Planner<Dim>::path_to(std::size_t node) const {
   return safe_path(reachable_, first_, node, visited_.back());
+}
+
+template <int Dim>
+  requires SpatialDim<Dim>
+void Planner<Dim>::go_to(const BeliefView<Dim>& view, std::size_t node, Decision<Dim>& decision) const {
+  decision.position = place_at(view, node);
+  decision.path = path_to(node);
+  if (decision.path.back() != decision.position) decision.path.push_back(decision.position);
 }
 
 template <int Dim>
@@ -162,11 +180,10 @@ Decision<Dim> Planner<Dim>::choose(const BeliefView<Dim>& view, const Vec<Dim>& 
   if (!scored.empty()) {
     const Scored& best = options_.look_ahead > 0 && options_.metric == Metric::ray ? first_of_best_pair(view, scored) : best_of(scored, here);
     decision.found = true;
-    decision.position = view.window().position(best.node);
     decision.score = best.score;
     decision.area = best.sums.area;
     for (const Scored& s : scored) decision.expected_volume = std::max(decision.expected_volume, s.sums.volume);
-    decision.path = path_to(best.node);
+    go_to(view, best.node, decision);
     last_.emplace_back(best.node, best.score);
     for (const Scored& s : scored)
       if (s.node != best.node) last_.emplace_back(s.node, s.score);
@@ -196,8 +213,7 @@ void Planner<Dim>::look_again(const BeliefView<Dim>& view, Decision<Dim>& decisi
     looks_.answer(view, opening_.faces(), ground, *last_look_.place);
     decision.found = true;
     decision.end = Decision<Dim>::End::none;
-    decision.position = view.window().position(*last_look_.place);
-    decision.path = path_to(*last_look_.place);
+    go_to(view, *last_look_.place, decision);
     return;
   }
   const Field<Dim, std::uint8_t> squeezed = squeezed_nodes(view, reachable_, options_.clearance);

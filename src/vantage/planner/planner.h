@@ -34,7 +34,8 @@ struct Decision {
 /// The elevations that a scan can say something of, as sines; all by default.
 struct Elevations {
   double lowest = -1.0, highest = 1.0;
-  bool by_hits = false;  ///< Of each scan no higher than its highest hit: a cloud without the rays that met nothing says nothing of the sky.
+  bool by_hits = false;   ///< Of each scan no higher than its highest hit: a cloud without the rays that met nothing says nothing of the sky.
+  bool each_way = false;  ///< The highest hit of every azimuth counts for itself: rays that met nothing say nothing, wherever they went.
 };
 
 /// Where a scanner may be put, if not wherever reachable_nodes() says: the nodes (1), given the belief and where we are.
@@ -42,6 +43,8 @@ template <int Dim>
 struct StationRule {
   std::function<Field<Dim, std::uint8_t>(const BeliefView<Dim>&, const Vec<Dim>& here)> places;
   bool all = false;  ///< Every such node is a candidate (a layer above the ground has no medial axis); false: the medial ones.
+  /// Where exactly a scanner stands that is put near such a node; of several candidates there only the nearest node counts. None: at the node.
+  std::function<Vec<Dim>(const BeliefView<Dim>&, const Vec<Dim>& node)> stand = {};
   std::function<double(const Vec<Dim>&)> worth = {};  ///< Times the weight w of a place [1]; none: 1 everywhere.
   std::optional<Elevations> coverage = {};            ///< Nothing is expected of other directions; none: of all.
 };
@@ -132,6 +135,8 @@ class Planner {
   [[nodiscard]] RayMarch<Dim> rays(const BeliefView<Dim>& view, const Field<Dim>* weight) const;
   [[nodiscard]] std::vector<Vec<Dim>> path_to(std::size_t node) const;
   [[nodiscard]] std::size_t nearest_place(const Vec<Dim>& place) const;
+  [[nodiscard]] Vec<Dim> place_at(const BeliefView<Dim>& view, std::size_t node) const;
+  void go_to(const BeliefView<Dim>& view, std::size_t node, Decision<Dim>& decision) const;
   [[nodiscard]] std::vector<std::size_t> candidates(const BeliefView<Dim>& view) const;
 
   PlannerOptions options_;

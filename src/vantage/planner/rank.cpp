@@ -139,14 +139,14 @@ std::vector<RankedPlace<Dim>> Planner<Dim>::rank(const BeliefView<Dim>& view, co
   if (places.empty())
     for (const auto& [node, score] : last_) {
       queue.push({limited ? kInfinity : score, places.size(), kNever});
-      places.push_back(grid.position(node));
+      places.push_back(place_at(view, node));
     }
   else
     for (std::size_t k = 0; k < places.size(); ++k) queue.push({kInfinity, k, kNever});
   if (request.among.empty() && ranking.mending.any())
     for (const Vec<Dim>& place : ranking.mending.viewers(reachable_)) {
       queue.push({kInfinity, places.size(), kNever});
-      places.push_back(place);
+      places.push_back(place_at(view, grid.linear(grid.nearest(place))));
     }
   std::vector<double> mended(places.size());
   if (ranking.mending.any()) parallel_for(places.size(), 1, [&](std::size_t k) { mended[k] = ranking.mending.area(places[k]); });

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vantage/base/parallel.h"
+#include "vantage/geometry/angle.h"
 #include "vantage/planner/march_grid.h"
 
 namespace vantage {
@@ -324,18 +325,19 @@ bool RayMarch<Dim>::line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, doub
 
 template <int Dim>
   requires SpatialDim<Dim>
-double RayMarch<Dim>::highest_hit(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const {
+std::vector<double> RayMarch<Dim>::highest_hits(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions, std::size_t sectors) const {
   const Grid<Dim>& grid = view_.window();
   const double limit = medium_.max_range / grid.spacing;
   const auto along = [&](const auto& codes) {
-    double highest = -1.0;
+    std::vector<double> all(sectors, -1.0);
     for (const Vec<Dim>& direction : directions) {
+      double& highest = all[sector_of<Dim>(direction, sectors)];
       if (direction[Dim - 1] <= highest) continue;
       const Ray<Dim> ray(grid, origin, direction);
       const Stop stop = march(ray, codes, limit);
       if (stop.inside && MarchGrid<Dim>::state(codes.code(ray.cell(stop.range))) == NodeState::obstacle) highest = direction[Dim - 1];
     }
-    return highest;
+    return all;
   };
   return medium_.grid != nullptr ? along(*medium_.grid) : along(PlainCodes<Dim>{view_.state});
 }
@@ -346,6 +348,12 @@ double RayMarch<Dim>::weight_at(const Vec<Dim>& place) const {
   if (medium_.weight == nullptr) return 1.0;
   const Index<Dim> node = view_.window().nearest(place);
   return view_.window().inside(node) ? static_cast<double>(medium_.weight->at(node)) : 1.0;
+}
+
+template <int Dim>
+std::size_t sector_of(const Vec<Dim>& direction, std::size_t sectors) {
+  const double turn = std::array{direction[0] < 0.0 ? 0.0 : 0.5, 0.5 + angle_of(direction[1], direction[0]) / (2.0 * kPi)}[Dim - 2];
+  return std::min(static_cast<std::size_t>(turn * static_cast<double>(sectors)), sectors - 1);
 }
 
 template <int Dim>
@@ -385,5 +393,8 @@ template class RayMarch<2>;
 template class RayMarch<3>;
 template double measured_opacity<2>(const BeliefView<2>&);
 template double measured_opacity<3>(const BeliefView<3>&);
+
+template std::size_t sector_of<2>(const Vec<2>&, std::size_t);
+template std::size_t sector_of<3>(const Vec<3>&, std::size_t);
 
 }  // namespace vantage

@@ -57,8 +57,9 @@ class RayMarch {
 
   /// True if the straight line from `from` runs through seen cells until it is within `slack` of `to` [m].
   [[nodiscard]] bool line_of_sight(const Vec<Dim>& from, const Vec<Dim>& to, double slack) const;
-  /// Of the `directions` along which known surface is met first, the largest last component: the sine of the highest elevation with a hit; -1: none.
-  [[nodiscard]] double highest_hit(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions) const;
+  /// Of the `directions` of each sector (sector_of) along which known surface is met first, the largest last component: the sine of the highest
+  /// elevation with a hit; -1: none. (sectors)
+  [[nodiscard]] std::vector<double> highest_hits(const Vec<Dim>& origin, std::span<const Vec<Dim>> directions, std::size_t sectors) const;
   /// w at a place; 1 outside of the window.
   [[nodiscard]] double weight_at(const Vec<Dim>& place) const;
   [[nodiscard]] double spacing() const { return view_.window().spacing; }
@@ -77,5 +78,9 @@ class RayMarch {
 /// surface, from its lattice faces, and V the seen volume. 0 while nothing is known.
 template <int Dim>
 [[nodiscard]] double measured_opacity(const BeliefView<Dim>& view);
+
+/// Which of so many sectors of azimuth a direction lies in; of a plane: its left or right half.
+template <int Dim>
+[[nodiscard]] std::size_t sector_of(const Vec<Dim>& direction, std::size_t sectors);
 
 }  // namespace vantage

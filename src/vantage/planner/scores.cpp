@@ -10,6 +10,11 @@
 #include "vantage/planner/planner.h"
 
 namespace vantage {
+namespace {
+
+constexpr std::size_t kSectors = 24;  // A gap of 15 degrees without hits is none (bin_points.h).
+
+}  // namespace
 
 /// Those of the directions that a scan from the place is expected to say something of.
 template <int Dim>
@@ -20,8 +25,8 @@ std::vector<Vec<Dim>> Planner<Dim>::covered(const RayMarch<Dim>& march, const Ve
   const Elevations& coverage = *rule_.coverage;
   std::erase_if(kept, [&](const Vec<Dim>& d) { return d[Dim - 1] < coverage.lowest || d[Dim - 1] > coverage.highest; });
   if (!coverage.by_hits) return kept;
-  const double highest = march.highest_hit(place, kept);
-  std::erase_if(kept, [&](const Vec<Dim>& d) { return d[Dim - 1] > highest; });
+  const std::vector<double> highest = march.highest_hits(place, kept, coverage.each_way ? kSectors : 1);
+  std::erase_if(kept, [&](const Vec<Dim>& d) { return d[Dim - 1] > highest[sector_of<Dim>(d, highest.size())]; });
   return kept;
 }
 

@@ -27,8 +27,9 @@ struct Named {
   std::string text;
 };
 
-/// Of every unseen region, by its number, the node nearest to its middle.
-std::vector<Vec<3>> middles_of(const Field<3, NodeState>& state, const Regions<3>& regions, std::vector<Box<3>>& boxes) {
+/// Of every unseen region, by its number, the node nearest to its middle, of those at the height of the cut if there are any: a region all around
+/// what was seen has its middle there.
+std::vector<Vec<3>> middles_of(const Field<3, NodeState>& state, const Regions<3>& regions, double cut, std::vector<Box<3>>& boxes) {
   std::vector<Vec<3>> middle(regions.count(), Vec<3>::Zero()), best = middle;
   std::vector<double> count(regions.count()), least(regions.count(), kInfinity);
   boxes.assign(regions.count(), {});
@@ -45,21 +46,22 @@ std::vector<Vec<3>> middles_of(const Field<3, NodeState>& state, const Regions<3
   });
   for (std::size_t id = 0; id < middle.size(); ++id) middle[id] /= count[id];
   for_nodes([&](std::size_t id, const Vec<3>& p) {
-    const double distance = (p - middle[id]).squaredNorm();
+    const bool hatched = std::abs(p.z() - cut) <= 0.5 * state.window.spacing;
+    const double distance = (p - middle[id]).squaredNorm() + (hatched ? 0.0 : 1e12);
     if (distance < least[id]) least[id] = distance, best[id] = p;
   });
   return best;
 }
 
 /// The largest unseen regions with their numbers in the table and why they are unseen.
-std::vector<Named> named_regions(const ReportInput<3>& input) {
+std::vector<Named> named_regions(const ReportInput<3>& input, double cut) {
   std::vector<Named> names;
   if (input.state.window.size() == 0 || input.verdict.unseen.empty()) return names;
   const Regions<3> regions(input.state.window, [&](std::size_t first, std::span<std::uint8_t> row) {
     for (std::size_t k = 0; k < row.size(); ++k) row[k] = input.state[first + k] == NodeState::unseen;
   });
   std::vector<Box<3>> boxes;
-  const std::vector<Vec<3>> middles = middles_of(input.state, regions, boxes);
+  const std::vector<Vec<3>> middles = middles_of(input.state, regions, cut, boxes);
   const double h = input.state.window.spacing;
   for (std::size_t k = 0; k < std::min(kTaggedRegions, input.verdict.unseen.size()); ++k) {
     const UnseenRegion<3>& region = input.verdict.unseen[k];
@@ -198,7 +200,7 @@ std::vector<Figure> next_figures(const ReportInput<3>& input, const Box<3>& box,
   if (input.next.empty() || input.steps.empty()) return {};
   const Camera camera = Camera::map(box, map_frame(input.picture_width));
   const double cut = plan_height(input), floor = height_range(input).first;
-  const std::vector<Named> names = named_regions(input);
+  const std::vector<Named> names = named_regions(input, cut);
   Raster raster(camera);
   draw_plan(raster, input.patches, {input.domain, {floor - 1.0, floor}, Colours::clay}, {cut, 0.5 * input.state.window.spacing});
   const RankedPlace<3>& best = input.next.front();
@@ -215,10 +217,11 @@ std::vector<Figure> next_figures(const ReportInput<3>& input, const Box<3>& box,
 
   Raster surfaces(bird), unseen(bird);
   draw_patches(surfaces, input.patches, {input.domain, height_range(input), Colours::clay});
-  if (input.state.window.size() > 0) draw_unseen(unseen, input.state);
+  if (input.state.window.size() > 0) draw_unseen(unseen, input.state, false);
   Figure space{"next-space", "The next places in space", {}, plan_legend(input), {}};
   space.caption =
-      "The same from above, with the border of the unseen, which shows through the surfaces. Numbers of unseen regions are those of the table.";
+      "The same from above, with the border of the unseen, which shows through the surfaces; what lies above the seen is left out. Numbers of unseen "
+      "regions are those of the table.";
   space.panels.push_back({unseen_image(surfaces, unseen),
                           plan_overlay(input, box, bird, false) + names_overlay(names, bird),
                           "Bird's view of the places to scan from next, the tour past them, and the unseen space.",

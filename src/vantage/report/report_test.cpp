@@ -150,6 +150,10 @@ TYPED_TEST(Report, TheVerdictIsSaidAsItIs) {
   EXPECT_NE(header_html(input).find("<b>Not complete.</b>"), std::string::npos);
   input.surface.data_to_surface = 0.2;
   EXPECT_NE(header_html(input).find("above the tolerance"), std::string::npos);
+  // Of a person's scans nobody knows how much there is to see.
+  input.next.push_back({});
+  EXPECT_EQ(verdict_text(input).find("of what can be seen"), std::string::npos);
+  EXPECT_EQ(verdict_text(input).find("6\u00a0scans saw "), 0U) << verdict_text(input);
 }
 
 TEST(StateMap, NodesStandWhereTheyAre) {

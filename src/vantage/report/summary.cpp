@@ -71,6 +71,13 @@ std::string gauge(const Verdict<Dim>& verdict) {
       percent(verdict.seen_fraction), share(verdict.seen_high), share(verdict.seen_low));
 }
 
+/// The one number, and what it is: the share seen, or what the best next place would show.
+template <int Dim>
+std::pair<std::string, std::string> headline(const ReportInput<Dim>& input) {
+  if (input.next.empty()) return {percent(input.verdict.seen_fraction), fmt::format("seen ({})", bounds(input))};
+  return {fmt::format("+\u00a0{}", quantity(input.next.front().new_volume, volume_unit<Dim>())), "expected of the best place"};
+}
+
 /// What is left, by reasons.
 template <int Dim>
 std::string left_over(const Verdict<Dim>& verdict) {
@@ -107,7 +114,9 @@ std::string verdict_text(const ReportInput<Dim>& input) {
   if (input.steps.empty()) return "No scan was taken, so nothing can be said of the place. " + sentence(input.verdict.reason);
   const std::string low = percent(input.verdict.seen_low), high = percent(input.verdict.seen_high, true);
   const std::string between = low == high ? std::string() : fmt::format(" (between {} and {})", low, high);
-  const std::string share = fmt::format("{} saw {} of what can be seen here{}. ", scans(input), percent(input.verdict.seen_fraction), between);
+  std::string share = fmt::format("{} saw {} of what can be seen here{}. ", scans(input), percent(input.verdict.seen_fraction), between);
+  // Of a person's scans nobody knows how much there is to see.
+  if (!input.next.empty()) share = fmt::format("{} saw {}. ", scans(input), quantity(input.steps.back().seen_volume, volume_unit<Dim>()));
   return share + sentence(input.verdict.reason) + left_over(input.verdict);
 }
 
@@ -116,10 +125,11 @@ std::string header_html(const ReportInput<Dim>& input) {
   const Verdict<Dim>& verdict = input.verdict;
   constexpr std::array<const char*, 2> words{"Exploration in the plane", "Exploration in space"};
   std::string html = fmt::format("<header class=\"{}\">\n<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", verdict.complete ? "done" : "not-done",
-                                 words[Dim - 2], escaped(input.scene));
-  html += fmt::format("<div class=\"verdict\"><p><b>{}</b> {}</p>\n<div class=\"share\"><strong>{}</strong><span>seen ({})</span></div></div>\n",
-                      verdict.complete ? "Complete." : "Not complete.", escaped(verdict_text(input)), percent(verdict.seen_fraction), bounds(input));
-  html += gauge(verdict) + "<dl>\n";
+                                 input.next.empty() ? words[Dim - 2] : "Where to scan next", escaped(input.scene));
+  const auto [figure_of, what] = headline(input);
+  html += fmt::format("<div class=\"verdict\"><p><b>{}</b> {}</p>\n<div class=\"share\"><strong>{}</strong><span>{}</span></div></div>\n",
+                      verdict.complete ? "Complete." : "Not complete.", escaped(verdict_text(input)), figure_of, what);
+  html += (input.next.empty() ? gauge(verdict) : std::string()) + "<dl>\n";
   for (const KeyFigure& figure : key_figures(input)) {
     html += fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", escaped(figure.name), escaped(figure.value), escaped(figure.note));
   }

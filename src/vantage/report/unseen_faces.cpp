@@ -28,14 +28,15 @@ bool is_border(NodeState a, NodeState b) {
 
 }  // namespace
 
-void draw_unseen(Raster& raster, const Field<3, NodeState>& state) {
+void draw_unseen(Raster& raster, const Field<3, NodeState>& state, bool lids) {
   const Grid<3>& window = state.window;
   parallel_for(static_cast<std::size_t>(window.extent.y()) * static_cast<std::size_t>(window.extent.z()), 64, [&](std::size_t row) {
     Index<3> i(0, static_cast<int>(row) % window.extent.y(), static_cast<int>(row) / window.extent.y());
     std::size_t node = window.linear(i);
     for (; i.x() < window.extent.x(); ++i.x(), ++node) {
       for (int axis = 0; axis < 3; ++axis) {
-        if (i[axis] + 1 < window.extent[axis] && is_border(state[node], state[node + window.stride(axis)])) draw_face(raster, window, i, axis);
+        if (i[axis] + 1 >= window.extent[axis] || !is_border(state[node], state[node + window.stride(axis)])) continue;
+        if (lids || axis < 2 || state[node] == NodeState::unseen) draw_face(raster, window, i, axis);
       }
     }
   });

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "vantage/base/error.h"
+#include "vantage/session/next_notes.h"
 #include "vantage/session/next_zones.h"
 #include "vantage/survey/tour.h"
 
@@ -75,7 +76,7 @@ NextAnswer<Dim> next_answer(const Explorer<Dim>& explorer, const NextOptions& op
   if (!answer.ranked.empty()) {
     const char* unit = std::array{"m²", "m³"}[Dim - 2];
     if (!verdict.complete)
-      verdict.reason = fmt::format("Unseen space remains: the best place would show about {:.3g} {}.", answer.ranked[0].new_volume, unit);
+      verdict.reason = fmt::format("Unseen space remains: the best place would show about {} {}.", amount_text(answer.ranked[0].new_volume), unit);
     for (UnseenRegion<Dim>& region : verdict.unseen)
       if (region.reason == "below the threshold") region.reason = "not looked at yet";
   } else if (verdict.reason.starts_with("The limit") || verdict.reason.starts_with("The exploration")) {

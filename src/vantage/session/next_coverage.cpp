@@ -8,6 +8,7 @@
 
 #include "vantage/base/parallel.h"
 #include "vantage/geometry/angle.h"
+#include "vantage/session/next_notes.h"
 
 namespace vantage {
 namespace {
@@ -17,17 +18,19 @@ constexpr int kFew = 3;  // Fewer rays of a row are strays, as where the image w
 /// Whether rows of the image say something, and whether it is more than hits.
 struct Rows {
   int lowest = 0, highest = -1, highest_hit = -1;
+  bool empty = false;  ///< Some rays met nothing.
 };
 
 Rows rows_of(const Scan<3>& scan) {
   const int columns = scan.pattern.columns(), rows = scan.pattern.rows<3>();
-  Rows found{rows, -1, -1};
+  Rows found{rows};
   for (int r = 0; r < rows; ++r) {
     int hits = 0, all = 0;
     for (int c = 0; c < columns; ++c) {
       const float range = scan.range(c, r);
       all += std::isnan(range) ? 0 : 1;
       hits += std::isfinite(range) ? 1 : 0;
+      found.empty = found.empty || std::isinf(range);
     }
     if (all >= kFew) found.lowest = std::min(found.lowest, r), found.highest = r;
     if (hits >= kFew) found.highest_hit = r;
@@ -42,7 +45,7 @@ Elevations coverage_of(const Scan<3>& scan) {
   const ScanPattern& pattern = scan.pattern;
   const double low = std::max(pattern.elevation(rows.lowest) - 0.5 * pattern.step, -0.5 * kPi);
   const double high = std::min(pattern.elevation(rows.highest) + 0.5 * pattern.step, 0.5 * kPi);
-  Elevations coverage{1.0, -1.0, rows.highest == rows.highest_hit};
+  Elevations coverage{1.0, -1.0, rows.highest == rows.highest_hit, !rows.empty};
   for (int c = 0; c < pattern.columns(); ++c) {
     const auto [sine, cosine] = sin_cos(pattern.azimuth(c));
     for (const double elevation : {low, high}) {  // A scanner that stands at a slant sees higher on one side.
@@ -62,7 +65,7 @@ double elevation_deg(double sine) { return degrees(angle_of(sine, std::sqrt(std:
 
 }  // namespace
 
-ScanCoverage::ScanCoverage(int count, const std::function<Scan<3>(int)>& scan) : all{1.0, -1.0, true} {
+ScanCoverage::ScanCoverage(int count, const std::function<Scan<3>(int)>& scan) : all{1.0, -1.0, true, true} {
   for (int k = 0; k < count; ++k) {
     const Scan<3> one = scan(k);
     of_scan.push_back(coverage_of(one));
@@ -70,6 +73,7 @@ ScanCoverage::ScanCoverage(int count, const std::function<Scan<3>(int)>& scan) :
     all.lowest = std::min(all.lowest, of_scan.back().lowest);
     all.highest = std::max(all.highest, of_scan.back().highest);
     all.by_hits = all.by_hits && of_scan.back().by_hits;
+    all.each_way = all.each_way && of_scan.back().each_way;
   }
 }
 
@@ -102,8 +106,12 @@ double ScanCoverage::beyond(const BeliefView<3>& view) const {
 std::string ScanCoverage::note(double beyond) const {
   if (!(beyond > 0.0) || !limits()) return {};
   return fmt::format(
-      "The scans say something of elevations from {:.0f} to {:.0f} degrees{}; nothing is expected beyond: {:.3g} m³ of the unseen are out of scope.",
-      elevation_deg(all.lowest), elevation_deg(all.highest), all.by_hits ? ", each up to its highest hit" : "", beyond);
+      "The scans say something of elevations from {:.0f} to {:.0f} degrees{}; nothing is expected beyond: {} m³ of the unseen are out of scope.",
+      elevation_deg(all.lowest), elevation_deg(all.highest),
+      all.each_way  ? ", in every direction up to the highest hit"
+      : all.by_hits ? ", each up to its highest hit"
+                    : "",
+      amount_text(beyond));
 }
 
 Json ScanCoverage::json(double beyond) const {

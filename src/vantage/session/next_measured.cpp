@@ -31,7 +31,6 @@ constexpr double kCells = 112.0;            // Along the domain's longest side, 
 constexpr double kMostNodes = 4e6;          // The lattice is made coarser than that.
 constexpr double kTrim = 0.005;             // Share of the points that may lie outside of the domain, at each end of each axis: strays.
 constexpr double kNoOverlap = 0.05;         // A scan with less of its points on known surface may be of another place.
-constexpr double kRepeated = 0.9;           // A scan with more of its points in another one is that one.
 constexpr const char* kMeasured = "scans";  // The scene's name in scenario.toml.
 
 template <int Dim>
@@ -120,12 +119,12 @@ class MeasuredRun {
   void refuse_repeated() const {
     for (std::size_t k = kept_.size(); k < static_cast<std::size_t>(scans()); ++k)
       for (std::size_t before = 0; before < k; ++before) {
-        const SharedPoints shared = shared_points(scan(static_cast<int>(k)), scan(static_cast<int>(before)));
-        if (shared.share < kRepeated) continue;
+        const std::optional<Repetition> repeated = repetition(scan(static_cast<int>(k)), scan(static_cast<int>(before)));
+        if (!repeated) continue;
         const std::string other = before < kept_.size() ? fmt::format("scan {}", kept_[before]) : added_[before - kept_.size()].name;
         throw Error(ErrorCode::bad_input,
-                    fmt::format("{:.0f} % of its points are those of {}{}: a scan counts once (--force adds it all the same)", 100.0 * shared.share,
-                                other, shared.elsewhere ? ", taken at another place" : ""),
+                    fmt::format("{:.0f} % of its points are {} {}: a scan counts once (--force adds it all the same)", 100.0 * repeated->share,
+                                repeated->how, other),
                     added_[k - kept_.size()].name);
       }
   }

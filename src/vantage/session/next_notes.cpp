@@ -11,6 +11,8 @@ namespace vantage {
 
 std::string place_text(const Vec<3>& p) { return fmt::format("{:.2f}, {:.2f}, {:.2f}", p[0], p[1], p[2]); }
 
+std::string amount_text(double amount) { return amount < 100.0 ? fmt::format("{:.3g}", amount) : fmt::format("{:.0f}", amount); }
+
 std::string input_line(const MeasuredInput& input) {
   const BinReport& r = input.report;
   std::string out =

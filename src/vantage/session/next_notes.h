@@ -8,6 +8,9 @@
 
 namespace vantage {
 
+/// A volume or area without more digits than are true: "0.0421", "8.59", "1231".
+[[nodiscard]] std::string amount_text(double amount);
+
 /// "1.00, 2.00, 1.50"
 [[nodiscard]] std::string place_text(const Vec<3>& p);
 

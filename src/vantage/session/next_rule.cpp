@@ -58,20 +58,32 @@ class Rule {
   }
   [[nodiscard]] bool on_ground() const { return ground_; }
 
-  Field<Dim, std::uint8_t> operator()(const BeliefView<Dim>& view, const Vec<Dim>& here) {
+  Field<Dim, std::uint8_t> places(const BeliefView<Dim>& view, const Vec<Dim>& here) {
+    scanned_.push_back(here);
+    height_ = 0.0;
     if (ground_) return on_ground(view, here);
     return anywhere(view, here);
+  }
+  /// The scanner's height above the ground below a node, whatever the lattice.
+  [[nodiscard]] Vec<Dim> stand(const BeliefView<Dim>& view, const Vec<Dim>& node) const {
+    const double ground = height_ > 0.0 ? ground_below(view, node) : -kInfinity;
+    Vec<Dim> place = node;
+    if (ground > -kInfinity) place[Dim - 1] = ground + height_;
+    return place;
   }
 
  private:
   Field<Dim, std::uint8_t> on_ground(const BeliefView<Dim>& view, const Vec<Dim>& here) {
-    const double height = height_at(view, here);
+    const double height = height_at(view);
     if (height < kInfinity) {
       const double slope = sin_cos(radians(options_.slope))[0] / sin_cos(radians(options_.slope))[1];
       const auto is_closed = [&](const Vec<Dim>& p) { return closed(p, view.window().spacing); };
       Field<Dim, std::uint8_t> nodes = walkable_nodes<Dim>(view, here, {height, clearance_, options_.step, slope}, is_closed);
       const bool any = std::find(nodes.values.begin(), nodes.values.end(), 1) != nodes.values.end();
-      if (any || must_) return nodes;
+      if (any || must_) {
+        height_ = height;
+        return nodes;
+      }
     }
     require(!must_ || height < kInfinity, "no ground is seen below the scanner: --height says how high it stands");
     note_once(*notes_, "No ground to walk on was found near the last scan: places anywhere in the seen space.");
@@ -90,22 +102,25 @@ class Rule {
     const Box<Dim> cell = Box<Dim>{p, p}.grown(0.5 * spacing);
     return std::any_of(closed_.begin(), closed_.end(), [&](const Zone& zone) { return zone.template meets<Dim>(cell); });
   }
-  /// As asked for, or the median of the scans so far.
-  double height_at(const BeliefView<Dim>& view, const Vec<Dim>& here) {
+  /// As asked for, or the median of the scans so far, each above the ground as it is known now. What the lattice cannot tell from the first counts as
+  /// that: a tripod keeps its height, and small errors of many stations do not add up.
+  double height_at(const BeliefView<Dim>& view) const {
     if (options_.height > 0.0) return options_.height;
-    const double height = height_above_ground(view, here, kGroundReach);
-    if (height < kInfinity && height > 0.1) heights_.push_back(height);
-    if (heights_.empty()) return kInfinity;
-    std::vector<double> sorted = heights_;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2];
+    std::vector<double> heights = heights_above_ground<Dim>(view, scanned_, kGroundReach);
+    std::erase_if(heights, [](double height) { return !(height < kInfinity) || height <= 0.1; });
+    if (heights.empty()) return kInfinity;
+    for (double& height : heights)
+      if (std::abs(height - heights[0]) <= 0.5 * view.window().spacing) height = heights[0];
+    std::sort(heights.begin(), heights.end());
+    return 0.5 * (heights[heights.size() / 2] + heights[(heights.size() - 1) / 2]);
   }
 
   NextOptions options_;
   double clearance_;
   std::vector<Zone> closed_;
   std::vector<std::string>* notes_;
-  std::vector<double> heights_;
+  std::vector<Vec<Dim>> scanned_;
+  double height_ = 0.0;  // That `places` were found for; 0: they are not on the ground.
   bool ground_ = false, must_ = false;
 };
 
@@ -117,7 +132,8 @@ StationRule<Dim> station_rule(const NextOptions& options, double clearance, bool
   const auto rule = std::make_shared<Rule<Dim>>(options, clearance, measured, notes);
   result.all = rule->on_ground();
   if (result.all || !options.keep_out.empty())
-    result.places = [rule](const BeliefView<Dim>& view, const Vec<Dim>& here) { return (*rule)(view, here); };
+    result.places = [rule](const BeliefView<Dim>& view, const Vec<Dim>& here) { return rule->places(view, here); };
+  if (result.all) result.stand = [rule](const BeliefView<Dim>& view, const Vec<Dim>& node) { return rule->stand(view, node); };
   if (!options.must_see.empty())
     result.worth = [zones = zones_of<Dim>(options.must_see, "--must-see")](const Vec<Dim>& p) {
       return std::any_of(zones.begin(), zones.end(), [&](const Zone& zone) { return zone.template contains<Dim>(p); }) ? kWorth : 1.0;

@@ -9,7 +9,6 @@
 
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
-#include "vantage/session/repeated.h"
 
 namespace vantage {
 namespace {
@@ -179,27 +178,6 @@ TEST(PointFilter, DoesNotDependOnThePoseOrTheThreads) {
   }
   (void)filter_points(many, {}, radians(0.5), options);
   EXPECT_EQ(one, many);
-}
-
-TEST(SharedPoints, ARepeatedScanIsKnownAndANewOneIsNot) {
-  Scan<3> first, again, moved, other;
-  first.points = synthetic(6).points;
-  again = first;
-  for (Vec<3>& p : again.points) p.array() += 1e-4;  // As a text file rounds.
-  EXPECT_EQ(shared_points(again, first).share, 1.0);
-  EXPECT_FALSE(shared_points(again, first).elsewhere);
-  moved = first;
-  moved.origin = {3, 4, 5};
-  moved.world_from_sensor = Eigen::AngleAxisd(1.0, Vec<3>::UnitZ()).toRotationMatrix();
-  for (Vec<3>& p : moved.points) p = moved.world_from_sensor * p + moved.origin;
-  EXPECT_GT(shared_points(moved, first).share, 0.999);
-  EXPECT_TRUE(shared_points(moved, first).elsewhere);
-  other.points = synthetic(7).points;  // The same room from the same tripod again: other noise.
-  EXPECT_LT(shared_points(other, first).share, 0.1);
-  Scan<3> half = first;
-  half.points.resize(half.points.size() / 2);
-  EXPECT_NEAR(shared_points(first, half).share, 0.5, 0.05);
-  EXPECT_EQ(shared_points(half, first).share, 1.0);
 }
 
 }  // namespace

@@ -10,11 +10,19 @@
 namespace vantage {
 namespace {
 
+constexpr double kRepeated = 0.9;  // Of the points.
 constexpr std::size_t kSample = 2000;
-constexpr double kCell = 0.001;   // [m]
-constexpr double kSame = 0.0004;  // Less than half a cell, so that the cells of a cube's corners hold all of it [m].
-constexpr double kClearly = 0.05;
+constexpr double kCell = 0.002;       // [m]
+constexpr double kSame = 0.0009;      // Less than half a cell, so that the cells of a cube's corners hold all of it [m].
+constexpr double kMore = 1.5;         // Times as many points: a scan with more shows more.
+constexpr double kPlace = 0.05;       // [m]
+constexpr double kNoise = 0.05;       // [m]
+constexpr double kRangeNoise = 0.01;  // [1]
+constexpr double kFinest = 0.7;       // Times the other's step: denser rays show more.
+constexpr double kClear = 0.3;        // Before all that was met near by [m].
+constexpr double kFloating = 0.01;    // Of the points.
 
+using Points = std::vector<Vec<3>>;
 using Cell = std::array<std::int64_t, 3>;
 
 struct CellHash {
@@ -34,25 +42,27 @@ Cell cell_of(const Vec<3>& p) {
   return cell;
 }
 
-/// The points, in the world's frame or the scanner's.
-std::vector<Vec<3>> points_in(const Scan<3>& scan, bool of_scanner) {
-  std::vector<Vec<3>> points = scan.points.empty() ? hit_points(scan) : scan.points;
-  if (of_scanner)
-    for (Vec<3>& p : points) p = scan.world_from_sensor.transpose() * (p - scan.origin);
+Points in_scanner(const Scan<3>& scan, Points points) {
+  for (Vec<3>& p : points) p = scan.world_from_sensor.transpose() * (p - scan.origin);
   return points;
 }
 
-double share(const std::vector<Vec<3>>& points, const std::vector<Vec<3>>& others) {
+Points sample_of(const Points& points) {
+  Points sample;
+  for (std::size_t i = 0; i < points.size(); i += points.size() / kSample + 1) sample.push_back(points[i]);
+  return sample;
+}
+
+/// Of the points, those that are among the others.
+double share(const Points& points, const Points& others) {
   if (points.empty()) return 0.0;
   std::unordered_multimap<Cell, std::size_t, CellHash> around;
-  std::vector<Vec<3>> sample;
-  for (std::size_t i = 0; i < points.size(); i += points.size() / kSample + 1) {
+  const Points sample = sample_of(points);
+  for (std::size_t i = 0; i < sample.size(); ++i)
     for (int corner = 0; corner < 8; ++corner) {
       const Vec<3> offset(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      around.emplace(cell_of(points[i] + kSame * offset), sample.size());
+      around.emplace(cell_of(sample[i] + kSame * offset), i);
     }
-    sample.push_back(points[i]);
-  }
   std::vector<std::uint8_t> found(sample.size(), 0);
   for (const Vec<3>& p : others)
     for (auto [at, end] = around.equal_range(cell_of(p)); at != end; ++at)
@@ -60,27 +70,88 @@ double share(const std::vector<Vec<3>>& points, const std::vector<Vec<3>>& other
   return static_cast<double>(std::count(found.begin(), found.end(), 1)) / static_cast<double>(sample.size());
 }
 
-/// Without those at the commonest height, unless hardly any others are left: the same scanner sees level ground alike from everywhere.
-std::vector<Vec<3>> off_ground(std::vector<Vec<3>> points) {
-  constexpr double kLayer = 0.02;  // [m]
-  constexpr std::size_t kEnough = 20;
-  std::unordered_map<std::int64_t, std::size_t> layers;
-  const auto layer = [](const Vec<3>& p) { return static_cast<std::int64_t>(std::floor(p.z() / kLayer + 0.5)); };
-  for (const Vec<3>& p : points) ++layers[layer(p)];
-  std::pair<std::size_t, std::int64_t> most{0, 0};
-  for (const auto& [height, count] : layers) most = std::max(most, {count, height});
-  std::vector<Vec<3>> kept;
-  for (const Vec<3>& p : points)
-    if (std::abs(layer(p) - most.second) > 1) kept.push_back(p);
-  return kept.size() >= kEnough ? kept : points;
+/// The same, of the one that has fewer.
+double equal_share(const Points& points, const Points& others) {
+  const auto [fewer, more] = std::minmax({points.size(), others.size()});
+  if (static_cast<double>(more) > kMore * static_cast<double>(fewer)) return 0.0;
+  return points.size() <= others.size() ? share(points, others) : share(others, points);
+}
+
+/// What a scan's rays met around the direction of a place.
+struct Around {
+  double first = kInfinity, last = 0.0;  ///< Hits [m].
+  bool known = true;                     ///< All of the rays were fired.
+};
+
+/// The image of a scan, looked up by places.
+class Image {
+ public:
+  explicit Image(const Scan<3>& scan) : scan_(scan), columns_(scan.pattern.columns()), rows_(scan.pattern.rows<3>()) {}
+
+  [[nodiscard]] Around around(const Vec<3>& place) const {
+    const Vec<3> d = scan_.world_from_sensor.transpose() * (place - scan_.origin);
+    const ScanPattern& pattern = scan_.pattern;
+    const auto ray = [&](double angle, double first) { return static_cast<int>(std::lround((angle - first) / pattern.step)); };
+    const int column = ray(angle_of(d.y(), d.x()), pattern.azimuth(0));
+    const int row = ray(angle_of(d.z(), std::sqrt(d.x() * d.x() + d.y() * d.y())), pattern.elevation(0));
+    Around around;
+    for (int c = column - 1; c <= column + 1; ++c)
+      for (int r = row - 1; r <= row + 1; ++r) {
+        const int wrapped = pattern.full_circle() ? (c + columns_) % columns_ : c;
+        const bool inside = wrapped >= 0 && wrapped < columns_ && r >= 0 && r < rows_;
+        const float range = inside ? scan_.range(wrapped, r) : kNoData;
+        if (std::isnan(range)) around.known = false;
+        if (!std::isfinite(range)) continue;
+        around.first = std::min(around.first, static_cast<double>(range));
+        around.last = std::max(around.last, static_cast<double>(range));
+      }
+    return around;
+  }
+  [[nodiscard]] double distance(const Vec<3>& place) const { return (place - scan_.origin).norm(); }
+
+ private:
+  const Scan<3>& scan_;
+  int columns_, rows_;
+};
+
+template <class Test>
+double share_of(const Points& points, Test&& test) {
+  const Points sample = sample_of(points);
+  return static_cast<double>(std::count_if(sample.begin(), sample.end(), test)) / static_cast<double>(std::max<std::size_t>(sample.size(), 1));
+}
+
+/// Of the scan's points, those that lie on what the other met.
+double in_view_of(const Points& points, const Scan<3>& other) {
+  const Image image(other);
+  return share_of(points, [&](const Vec<3>& p) {
+    const Around around = image.around(p);
+    const double distance = image.distance(p), noise = kNoise + kRangeNoise * distance;
+    return around.first - noise <= distance && distance <= around.last + noise;
+  });
+}
+
+/// Of the scan's points, those that float in what the other saw to be free.
+double floating(const Points& points, const Scan<3>& other) {
+  const Image image(other);
+  return share_of(points, [&](const Vec<3>& p) {
+    const Around around = image.around(p);
+    return around.known && image.distance(p) < std::min(around.first, other.pattern.max_range) - kClear;
+  });
 }
 
 }  // namespace
 
-SharedPoints shared_points(const Scan<3>& scan, const Scan<3>& other) {
-  const double world = share(points_in(scan, false), points_in(other, false));
-  const double own = share(off_ground(points_in(scan, true)), points_in(other, true));
-  return {std::max(world, own), own > world + kClearly};
+std::optional<Repetition> repetition(const Scan<3>& scan, const Scan<3>& other) {
+  const Points points = hit_points(scan), others = hit_points(other);
+  const double same = equal_share(points, others);
+  if (same >= kRepeated) return Repetition{same, "those of"};
+  if ((scan.origin - other.origin).norm() <= kPlace && scan.pattern.step >= kFinest * other.pattern.step) {
+    const double seen = in_view_of(points, other);
+    if (seen >= kRepeated) return Repetition{seen, "seen from the same place in"};
+  }
+  const double own = equal_share(in_scanner(scan, points), in_scanner(other, others));
+  if (own >= kRepeated && floating(points, other) >= kFloating) return Repetition{own, "with another pose those of"};
+  return std::nullopt;
 }
 
 }  // namespace vantage
