@@ -19,6 +19,7 @@ constexpr double kScatter = 2.0;   // How far their mean square may be above its
 const double kWindow = radians(60.0);  // Widest.
 constexpr int kGuesses = 8;        // Planes through Dim hits, to begin with.
 constexpr int kSteps = 4;          // Of Gauss and Newton.
+constexpr int kReaches[2][3] = {{12, 6, 3}, {6, 3, 2}};  // Rays to each side, by dimension.
 constexpr std::size_t kFewest[] = {0, 0, 6, 12};  // Hits for a plane, by dimension.
 
 /// The hits around a ray that a plane is fitted to.
@@ -45,19 +46,16 @@ class PlaneAround {
     const int centre = image_.index(column, row);
     if (!std::isfinite(image_.range(centre))) return Vec<Dim>::Zero();
     random_ = Random(static_cast<std::uint64_t>(centre));
-    constexpr int kReaches[] = {12, 6, 3};
-    for (const int wide : kReaches) {
-      const int reach = Dim == 2 ? wide : wide / 2 + (wide == 3);
+    for (const int reach : kReaches[Dim - 2]) {
       if (2 * reach * step_ > kWindow) continue;
       for (const int shift : {0, reach / 2, reach})
         for (int side = 0; side < (shift == 0 ? 1 : 1 << (Dim - 1)); ++side) {
           const int dc = (side & 1) != 0 ? shift : -shift, dr = Dim == 2 ? 0 : (side & 2) != 0 ? shift : -shift;
-          gather(column + dc, row + dr, reach);
-          const Vec<Dim> plane = fit();
-          if (on(plane, image_.direction(centre), image_.range(centre)) && holds(plane)) return plane;
+          const Vec<Dim> plane = fit(column + dc, row + dr, reach);
+          if (on(plane, image_.direction(centre), image_.range(centre))) return plane;
         }
     }
-    return Vec<Dim>::Zero();
+    return fit(column, row, kReaches[Dim - 2][2]);
   }
 
  private:
@@ -92,7 +90,7 @@ class PlaneAround {
 
   [[nodiscard]] bool holds(const Vec<Dim>& plane) const {
     const Fit fit = judge(plane);
-    if (fit.on < kFewest[Dim] || static_cast<double>(fit.on) < kShare * static_cast<double>(hits_.size())) return false;
+    if (fit.on < kFewest[Dim] || static_cast<double>(fit.on) <= kShare * static_cast<double>(hits_.size())) return false;
     const double freedom = static_cast<double>(fit.on) - Dim;
     return fit.squares <= variance_ * (freedom + kScatter * std::sqrt(2.0 * freedom));
   }
@@ -119,8 +117,9 @@ class PlaneAround {
     return best;
   }
 
-  /// Least squares of the ranges of what is on the plane.
-  Vec<Dim> fit() {
+  /// The plane that the hits around lie on, or zero: least squares of the ranges of those that do.
+  Vec<Dim> fit(int column, int row, int reach) {
+    gather(column, row, reach);
     if (hits_.size() < kFewest[Dim]) return Vec<Dim>::Zero();
     Vec<Dim> plane = guess();
     for (int step = 0; step < kSteps; ++step) {
@@ -137,7 +136,7 @@ class PlaneAround {
       if (!change.allFinite()) return Vec<Dim>::Zero();
       plane += change;
     }
-    return plane;
+    return holds(plane) ? plane : Vec<Dim>::Zero();
   }
 
   const RangeImage<Dim>& image_;
@@ -161,22 +160,23 @@ std::vector<Vec<Dim>> local_planes(const Scan<Dim>& scan, double noise) {
 }
 
 template <int Dim>
-std::int64_t put_on_planes(Scan<Dim>& scan, double noise) {
-  if (!(noise > 0.0)) return 0;
+Smoothed put_on_planes(Scan<Dim>& scan, double noise) {
+  Smoothed smoothed;
+  if (!(noise > 0.0)) return smoothed;
   const std::vector<Vec<Dim>> planes = local_planes(scan, noise), rays = directions<Dim>(scan.pattern);
-  std::int64_t moved = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const double inverse = planes[i].dot(rays[i]);
     if (!(inverse > 0.0)) continue;
-    scan.ranges[i] = static_cast<float>(1.0 / inverse);
-    ++moved;
+    const bool on = std::abs(static_cast<double>(scan.ranges[i]) - 1.0 / inverse) <= kOff * noise;
+    scan.ranges[i] = on ? static_cast<float>(1.0 / inverse) : kNoData;
+    ++(on ? smoothed.moved : smoothed.dropped);
   }
-  return moved;
+  return smoothed;
 }
 
 template std::vector<Vec<2>> local_planes<2>(const Scan<2>&, double);
 template std::vector<Vec<3>> local_planes<3>(const Scan<3>&, double);
-template std::int64_t put_on_planes<2>(Scan<2>&, double);
-template std::int64_t put_on_planes<3>(Scan<3>&, double);
+template Smoothed put_on_planes<2>(Scan<2>&, double);
+template Smoothed put_on_planes<3>(Scan<3>&, double);
 
 }  // namespace vantage
