@@ -7,10 +7,11 @@
 namespace vantage {
 namespace {
 
-constexpr int kReach = 2;                          // Rays to each side.
-constexpr int kNeeded[] = {0, 0, 1, 3};            // Hits at a like range, of 4 or 24 rays around, by dimension.
-constexpr double kSlant[] = {0.0, 0.0, 10.0, 4.0};  // Difference of ranges, in distances between rays; in space some rays around are as far on any wall.
-constexpr double kDeviations = 4.0;                // The same, in standard deviations of the noise.
+constexpr int kReach = 2;                // Rays to each side.
+constexpr int kNeeded[] = {0, 0, 1, 3};  // Hits at a like range, of 4 or 24 rays around, by dimension.
+/// Difference of ranges, in distances between rays; in space some rays around are as far on any wall.
+constexpr double kSlant[] = {0.0, 0.0, 10.0, 4.0};
+constexpr double kDeviations = 4.0;  // The same, in standard deviations of the noise.
 
 }  // namespace
 

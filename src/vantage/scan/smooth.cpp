@@ -13,14 +13,15 @@
 namespace vantage {
 namespace {
 
-constexpr double kOff = 3.0;       // Farthest from the plane that counts as on it, in standard deviations.
-constexpr double kShare = 0.8;     // Of the hits that must be on it.
-constexpr double kScatter = 2.0;   // How far their mean square may be above its expectation, in its standard deviations.
-const double kWindow = radians(60.0);  // Widest.
-constexpr int kGuesses = 8;        // Planes through Dim hits, to begin with.
-constexpr int kSteps = 4;          // Of Gauss and Newton.
+constexpr double kOff = 3.0;                             // Farthest from the plane that counts as on it, in standard deviations.
+constexpr double kShare = 0.8;                           // Of the hits around that must be on it.
+constexpr double kMost = 0.65;                           // The same, to contradict the hit in the middle.
+constexpr double kScatter = 2.0;                         // How far their mean square may be above its expectation, in its standard deviations.
+const double kWindow = radians(60.0);                    // Widest.
+constexpr int kGuesses = 8;                              // Planes through Dim hits, to begin with.
+constexpr int kSteps = 4;                                // Of Gauss and Newton.
 constexpr int kReaches[2][3] = {{12, 6, 3}, {6, 3, 2}};  // Rays to each side, by dimension.
-constexpr std::size_t kFewest[] = {0, 0, 6, 12};  // Hits for a plane, by dimension.
+constexpr std::size_t kFewest[] = {0, 0, 6, 9};          // Hits for a plane, by dimension.
 
 /// The hits around a ray that a plane is fitted to.
 template <int Dim>
@@ -46,23 +47,25 @@ class PlaneAround {
     const int centre = image_.index(column, row);
     if (!std::isfinite(image_.range(centre))) return Vec<Dim>::Zero();
     random_ = Random(static_cast<std::uint64_t>(centre));
+    const int least = kReaches[Dim - 2][2];
+    if (2 * least * step_ > kWindow) return Vec<Dim>::Zero();
     for (const int reach : kReaches[Dim - 2]) {
       if (2 * reach * step_ > kWindow) continue;
       for (const int shift : {0, reach / 2, reach})
         for (int side = 0; side < (shift == 0 ? 1 : 1 << (Dim - 1)); ++side) {
-          const int dc = (side & 1) != 0 ? shift : -shift, dr = Dim == 2 ? 0 : (side & 2) != 0 ? shift : -shift;
-          const Vec<Dim> plane = fit(column + dc, row + dr, reach);
+          const int dc = (side & 1) != 0 ? shift : -shift, dr = tall_ * ((side & 2) != 0 ? shift : -shift);
+          const Vec<Dim> plane = fit(column + dc, row + dr, reach, kShare);
           if (on(plane, image_.direction(centre), image_.range(centre))) return plane;
         }
     }
-    return fit(column, row, kReaches[Dim - 2][2]);
+    return fit(column, row, least, kMost);
   }
 
  private:
   void gather(int column, int row, int reach) {
     hits_.directions.clear();
     hits_.ranges.clear();
-    const int up = Dim == 2 ? 0 : reach;
+    const int up = tall_ * reach;
     for (int dc = -reach; dc <= reach; ++dc)
       for (int dr = -up; dr <= up; ++dr) {
         const int i = image_.index(column + dc, row + dr);
@@ -88,9 +91,9 @@ class PlaneAround {
     return fit;
   }
 
-  [[nodiscard]] bool holds(const Vec<Dim>& plane) const {
+  [[nodiscard]] bool holds(const Vec<Dim>& plane, double share) const {
     const Fit fit = judge(plane);
-    if (fit.on < kFewest[Dim] || static_cast<double>(fit.on) <= kShare * static_cast<double>(hits_.size())) return false;
+    if (fit.on < kFewest[Dim] || static_cast<double>(fit.on) <= share * static_cast<double>(hits_.size())) return false;
     const double freedom = static_cast<double>(fit.on) - Dim;
     return fit.squares <= variance_ * (freedom + kScatter * std::sqrt(2.0 * freedom));
   }
@@ -118,7 +121,7 @@ class PlaneAround {
   }
 
   /// The plane that the hits around lie on, or zero: least squares of the ranges of those that do.
-  Vec<Dim> fit(int column, int row, int reach) {
+  Vec<Dim> fit(int column, int row, int reach, double share) {
     gather(column, row, reach);
     if (hits_.size() < kFewest[Dim]) return Vec<Dim>::Zero();
     Vec<Dim> plane = guess();
@@ -136,10 +139,11 @@ class PlaneAround {
       if (!change.allFinite()) return Vec<Dim>::Zero();
       plane += change;
     }
-    return holds(plane) ? plane : Vec<Dim>::Zero();
+    return holds(plane, share) ? plane : Vec<Dim>::Zero();
   }
 
   const RangeImage<Dim>& image_;
+  int tall_ = image_.rows() > 1 ? 1 : 0;  // Whether there are rays above and below.
   double step_, off_, variance_;
   Random random_{0};
   Hits<Dim> hits_;

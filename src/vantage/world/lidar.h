@@ -32,8 +32,8 @@ class SimulatedLidar final : public Sensor<Dim> {
  public:
   SimulatedLidar(const Mesh<Dim>& world, const LidarOptions& options);
   ~SimulatedLidar() override;
-  /// Throws bad_input when the place is inside an obstacle or within 1 mm of a surface; but after the first scan, with noise of pose or range, the scan
-  /// is taken at the nearest open place then, and says that it was taken at `vantage_point`.
+  /// Throws bad_input when the place is inside an obstacle or within 1 mm of a surface; but after the first scan, with noise of pose or range, the
+  /// scan is taken at the nearest open place then, and says that it was taken at `vantage_point`.
   [[nodiscard]] Scan<Dim> scan(const Vec<Dim>& vantage_point, int index) override;
 
  private:
