@@ -79,6 +79,22 @@ TEST(Endings, EveryRunEndsAndHarmsNothing) {
   EXPECT_LT(width / static_cast<double>(runs), 0.25);
 }
 
+/// A scanner that stands off where it says makes the map wrong, and the planner may then choose a place in a wall: the run goes on, and ends.
+TEST(Endings, RunsWithNoiseOfThePoseEnd) {
+  const auto scene = make_small_scene<2>(SmallKind::rooms, 101);
+  for (std::int64_t seed = 1; seed <= 6; ++seed) {
+    TrialOptions options = small_options(scene);
+    options.lidar.pose_noise = 0.5 * scene.clearance;
+    options.lidar.pose_turn = radians(1.0);
+    options.lidar.seed = seed;
+    const Ending e = play_to_end(scene, options);
+    SCOPED_TRACE(story({SmallKind::rooms, 2, 101}, e));
+    EXPECT_EQ(e.error, "");
+    EXPECT_TRUE(e.ended);
+    EXPECT_FALSE(e.reason.empty());
+  }
+}
+
 /// The judge notices: a run cut short has not ended, and what it said of the rest holds nothing.
 TEST(Endings, ARunCutShortHasNotEnded) {
   const auto scene = make_small_scene<2>(SmallKind::maze, 1);

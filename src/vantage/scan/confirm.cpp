@@ -7,8 +7,10 @@
 namespace vantage {
 namespace {
 
-constexpr int kReach = 2;            // Rays to each side.
-constexpr double kSlant = 10.0;      // Difference of ranges, in distances between rays.
+constexpr int kReach = 2;                // Rays to each side.
+constexpr int kNeeded[] = {0, 0, 1, 3};  // Hits at a like range, of 4 or 24 rays around, by dimension.
+/// Difference of ranges, in distances between rays; in space some rays around are as far on any wall.
+constexpr double kSlant[] = {0.0, 0.0, 10.0, 4.0};
 constexpr double kDeviations = 4.0;  // The same, in standard deviations of the noise.
 
 }  // namespace
@@ -18,14 +20,15 @@ std::int64_t drop_unconfirmed(Scan<Dim>& scan, double noise) {
   const int columns = scan.pattern.columns(), rows = scan.pattern.template rows<Dim>();
   const bool around = scan.pattern.full_circle();
   const auto confirmed = [&](int c, int r, double range) {
-    const double most = std::max(kSlant * scan.pattern.step * range, kDeviations * noise);
+    const double most = std::max(kSlant[Dim] * scan.pattern.step * range, kDeviations * noise);
+    int like = 0;
     for (int dc = -kReach; dc <= kReach; ++dc)
       for (int dr = std::max(-kReach, -r); dr <= std::min(kReach, rows - 1 - r); ++dr) {
         const int column = around ? (c + dc + columns) % columns : c + dc;
         if ((dc == 0 && dr == 0) || column < 0 || column >= columns) continue;
-        if (std::abs(static_cast<double>(scan.range(column, r + dr)) - range) <= most) return true;  // Not so for infinity and NaN.
+        like += std::abs(static_cast<double>(scan.range(column, r + dr)) - range) <= most ? 1 : 0;  // Not so for infinity and NaN.
       }
-    return false;
+    return like >= kNeeded[Dim];
   };
   std::vector<std::size_t> alone;
   for (int c = 0; c < columns; ++c)

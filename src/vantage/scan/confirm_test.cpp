@@ -48,25 +48,30 @@ TYPED_TEST(Confirm, NoiseDropOutAndSlantConfirmOneAnother) {
   EXPECT_LT(static_cast<double>(drop_unconfirmed(scan, 0.05)), 0.02 * static_cast<double>(hits));
 }
 
-TYPED_TEST(Confirm, OneHitAloneIsDroppedTwoAreNot) {
+/// In the plane one other is enough, in space it takes three.
+TYPED_TEST(Confirm, FewHitsAloneAreDroppedMoreAreNot) {
   constexpr int Dim = TypeParam::value;
+  constexpr int kEnough = Dim == 2 ? 2 : 4;
   Scan<Dim> scan = round_room<Dim>();
   std::fill(scan.ranges.begin(), scan.ranges.end(), kNoReturn);
   const int rows = scan.pattern.template rows<Dim>(), row = rows / 2, last = scan.pattern.columns() - 1;
-  const auto at = [&](int c) -> float& { return scan.ranges[static_cast<std::size_t>(c * rows + row)]; };
-  at(0) = 3.0F;
-  EXPECT_EQ(drop_unconfirmed(scan, 0.0), 1);
-  EXPECT_TRUE(std::isnan(at(0)));
-  at(0) = 3.0F;
-  at(last) = 3.1F;  // Beside it across the seam.
+  const auto at = [&](int c, int r) -> float& { return scan.ranges[static_cast<std::size_t>(c * rows + r)]; };
+  const auto set = [&](int count, float beside) {  // Every second one on the other side of the seam.
+    for (int k = 0; k < count; ++k) at(k % 2 == 0 ? 0 : last, row + k / 2) = k % 2 == 0 ? 3.0F : beside;
+  };
+  for (int count = 1; count < kEnough; ++count) {
+    set(count, 3.1F);
+    EXPECT_EQ(drop_unconfirmed(scan, 0.0), count);
+    EXPECT_TRUE(std::isnan(at(0, row)));
+  }
+  set(kEnough, 3.1F);
   EXPECT_EQ(drop_unconfirmed(scan, 0.0), 0);
-  at(last) = 5.0F;
-  EXPECT_EQ(drop_unconfirmed(scan, 0.0), 2);
-  at(0) = 3.0F;
-  at(last) = 3.1F;
+  set(kEnough, 5.0F);
+  EXPECT_EQ(drop_unconfirmed(scan, 0.0), kEnough);
+  set(kEnough, 3.1F);
   scan.pattern.horizontal_fov = radians(300.0);  // Now they are the two ends.
   scan.ranges.resize(static_cast<std::size_t>(scan.pattern.columns() * rows));
-  EXPECT_EQ(drop_unconfirmed(scan, 0.0), 1);
+  EXPECT_EQ(drop_unconfirmed(scan, 0.0), (kEnough + 1) / 2);
 }
 
 }  // namespace

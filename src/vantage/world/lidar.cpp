@@ -14,12 +14,14 @@
 #include "vantage/geometry/angle.h"
 #include "vantage/geometry/ray_caster.h"
 #include "vantage/scan/confirm.h"
+#include "vantage/scan/smooth.h"
 #include "vantage/world/inside_solid.h"
 
 namespace vantage {
 namespace {
 
 constexpr double kTouching = 1e-3;  ///< Nearest that a scanner may stand to a surface [m].
+constexpr int kWaysOut = 64;        ///< Directions in which the nearest open place is looked for.
 
 template <int Dim>
 std::string text(const Vec<Dim>& p) {
@@ -69,6 +71,8 @@ void describe(LidarOptions& o, const OptionVisitor& visit) {
   visit("pose_noise", o.pose_noise, "m", Range{0.0, 100.0}, "standard deviation of the place from the one it reports, along each axis");
   visit.angle("pose_noise_deg", o.pose_turn, Range{0.0, 45.0}, "standard deviation of the orientation from the one it reports, about each axis");
   visit("confirmed", o.confirmed, "hits that no ray beside them confirms give no data: against outliers, and at the cost of wires");
+  visit("smoothed", o.smoothed,
+        "hits are put onto the planes of the hits around them: against range_noise, and at the cost of what is smaller than it");
   visit("seed", o.seed, "", Range{0.0, 9.0e15}, "of noise, drop-out and outliers");
 }
 
@@ -83,20 +87,45 @@ struct SimulatedLidar<Dim>::Impl {
   }
   /// Throws bad_input where nobody could put a scanner.
   void check_place(const Vec<Dim>& p) const {
-    require(p.allFinite(), fmt::format("vantage point {}: must be finite", text<Dim>(p)));
     const double gap = caster.distance(p, kTouching);
     require(gap >= kTouching, fmt::format("vantage point {}: {:.2g} m from a surface, must be at least {} m", text<Dim>(p), gap, kTouching));
     require(!inside_solid<Dim>(caster, p), fmt::format("vantage point {}: inside an obstacle", text<Dim>(p)));
   }
 
-  /// Where the scanner stands when it says that it stands at p: in the open still, whatever the noise.
-  Vec<Dim> true_place(const Vec<Dim>& p, Random& random) const {
+  [[nodiscard]] bool open(const Vec<Dim>& p) const { return caster.distance(p, kTouching) >= kTouching && !inside_solid<Dim>(caster, p); }
+
+  /// The nearest open place to p in some directions.
+  [[nodiscard]] Vec<Dim> nearest_open(const Vec<Dim>& p, Random& random) const {
+    Vec<Dim> nearest = p;
+    double least = kInfinity;
+    for (int way = 0; way < kWaysOut; ++way) {
+      Vec<Dim> along;
+      for (int a = 0; a < Dim; ++a) along[a] = random.normal();
+      along.normalize();
+      for (double t = 0.0; t < least;) {
+        t += caster.cast(p + t * along, along, least - t).range + 2.0 * kTouching;
+        if (!(t < least) || !open(p + t * along)) continue;
+        least = t;
+        nearest = p + t * along;
+      }
+    }
+    return nearest;
+  }
+
+  /// Where the scanner stands when it says that it stands at `wanted`: in the open still, whatever the noise. A place after the first was chosen by
+  /// a map that noise made wrong, and may lie in an obstacle: nobody gets in there.
+  Vec<Dim> true_place(const Vec<Dim>& wanted, int index, Random& random) const {
+    require(wanted.allFinite(), fmt::format("vantage point {}: must be finite", text<Dim>(wanted)));
+    const bool misled = index > 0 && (options.pose_noise > 0.0 || options.pose_turn > 0.0 || options.range_noise > 0.0);
+    const Vec<Dim> p = misled && !open(wanted) ? nearest_open(wanted, random) : wanted;
+    check_place(p);
+    if (!(options.pose_noise > 0.0)) return p;
     Vec<Dim> off;
     for (int a = 0; a < Dim; ++a) off[a] = options.pose_noise * random.normal();
     for (int halvings = 0; halvings < 20; ++halvings, off *= 0.5) {
       const double length = off.norm();
-      const bool open = !(length > 0.0) || caster.cast(p, off / length, length + kTouching).range == kInfinity;
-      if (open && caster.distance(p + off, kTouching) >= kTouching) return p + off;
+      const bool free = !(length > 0.0) || caster.cast(p, off / length, length + kTouching).range == kInfinity;
+      if (free && caster.distance(p + off, kTouching) >= kTouching) return p + off;
     }
     return p;
   }
@@ -117,13 +146,12 @@ SimulatedLidar<Dim>::~SimulatedLidar() = default;
 template <int Dim>
   requires SpatialDim<Dim>
 Scan<Dim> SimulatedLidar<Dim>::scan(const Vec<Dim>& vantage_point, int index) {
-  impl_->check_place(vantage_point);
+  Random random = random_of_scan(impl_->options, index);
+  const Vec<Dim> place = impl_->true_place(vantage_point, index, random);
   Scan<Dim> scan;
   scan.origin = vantage_point;
   scan.pattern = impl_->options.pattern;
   scan.ranges.resize(impl_->rays.size());
-  Random random = random_of_scan(impl_->options, index);
-  const Vec<Dim> place = impl_->options.pose_noise > 0.0 ? impl_->true_place(vantage_point, random) : vantage_point;
   const bool turned = impl_->options.pose_turn > 0.0;
   const auto turn = random_turn<Dim>(impl_->options.pose_turn, random);
   parallel_for(impl_->rays.size(), 1024, [&](std::size_t i) {
@@ -133,6 +161,7 @@ Scan<Dim> SimulatedLidar<Dim>::scan(const Vec<Dim>& vantage_point, int index) {
     scan.ranges[i] = measure(range, impl_->options, Random(static_cast<std::uint64_t>(impl_->options.seed), stream));
   });
   if (impl_->options.confirmed) (void)drop_unconfirmed(scan, impl_->options.range_noise);
+  if (impl_->options.smoothed) (void)put_on_planes(scan, impl_->options.range_noise);
   return scan;
 }
 

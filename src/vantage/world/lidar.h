@@ -19,6 +19,7 @@ struct LidarOptions {
   double pose_noise = 0.0;
   double pose_turn = 0.0;  ///< The same of its orientation about each axis [rad].
   bool confirmed = false;  ///< Drop hits that no ray beside them confirms (confirm.h).
+  bool smoothed = false;   ///< Put hits onto the planes of the hits around them (smooth.h).
   std::int64_t seed = 1;   ///< Of the imperfections.
 };
 
@@ -31,7 +32,8 @@ class SimulatedLidar final : public Sensor<Dim> {
  public:
   SimulatedLidar(const Mesh<Dim>& world, const LidarOptions& options);
   ~SimulatedLidar() override;
-  /// Throws bad_input when the place is inside an obstacle or within 1 mm of a surface.
+  /// Throws bad_input when the place is inside an obstacle or within 1 mm of a surface; but after the first scan, with noise of pose or range, the
+  /// scan is taken at the nearest open place then, and says that it was taken at `vantage_point`.
   [[nodiscard]] Scan<Dim> scan(const Vec<Dim>& vantage_point, int index) override;
 
  private:

@@ -252,6 +252,45 @@ TYPED_TEST(Lidar, RefusesToStandInAnObstacle) {
   EXPECT_EQ(error_of([&] { (void)lidar.scan(5.0 * Vec<Dim>::Unit(0), 0); }), "no error");
 }
 
+/// The map that chose a later place was made with noise: it may be wrong, and the scanner stays on this side of the wall.
+TYPED_TEST(Lidar, StandsBesideTheObstacleThatNoiseSentItInto) {
+  constexpr int Dim = TypeParam::value;
+  LidarOptions options = coarse();
+  options.pattern.step = radians(30.0);
+  options.pattern.vertical_fov = radians(180.0);
+  options.pose_noise = 1e-9;
+  SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
+  const auto rays = directions<Dim>(options.pattern);
+  const std::size_t back = static_cast<std::size_t>(
+      std::min_element(rays.begin(), rays.end(), [](const Vec<Dim>& a, const Vec<Dim>& b) { return a[0] < b[0]; }) - rays.begin());
+  const Vec<Dim> wanted = 3.05 * Vec<Dim>::Unit(0);  // In the wall, 0.05 from the room and 0.15 from the open.
+  EXPECT_THAT(error_of([&] { (void)lidar.scan(wanted, 0); }), testing::HasSubstr("inside an obstacle"));
+  for (int index = 1; index < 20; ++index) {
+    const Scan<Dim> scan = lidar.scan(wanted, index);
+    EXPECT_EQ(scan.origin, wanted);
+    EXPECT_NEAR(static_cast<double>(scan.ranges[back]), 6.0, 0.01);
+  }
+  EXPECT_EQ(error_of([&] { (void)lidar.scan(2.9995 * Vec<Dim>::Unit(0), 1); }), "no error");
+  EXPECT_THAT(error_of([&] { (void)lidar.scan(Vec<Dim>::Constant(kInfinity), 1); }), testing::HasSubstr("must be finite"));
+}
+
+TYPED_TEST(Lidar, SmoothedHitsLieNearTheWalls) {
+  constexpr int Dim = TypeParam::value;
+  LidarOptions options = coarse();
+  options.pattern.step = radians(Dim == 2 ? 0.5 : 2.0);
+  options.range_noise = 0.1;
+  const auto off = [&] {
+    SimulatedLidar<Dim> lidar(hollow_room<Dim>(), options);
+    double squares = 0.0;
+    const auto points = hit_points(lidar.scan(Vec<Dim>::Zero(), 0));
+    for (const Vec<Dim>& p : points) squares += std::pow(p.cwiseAbs().maxCoeff() - 3.0, 2);
+    return std::sqrt(squares / static_cast<double>(points.size()));
+  };
+  const double before = off();
+  options.smoothed = true;
+  EXPECT_LT(off(), 0.6 * before);
+}
+
 TYPED_TEST(Lidar, RefusesOptionsOutOfRange) {
   constexpr int Dim = TypeParam::value;
   LidarOptions options = coarse();
