@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "numbers.h"
 
@@ -41,7 +42,11 @@ std::string headline(const vantage::RunOutcome& outcome) {
 std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_integer()) return grouped(value.get<std::int64_t>());
-  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  if (value.is_number_float()) {
+    int digits = 6;  // More of large coordinates, for their millimetres.
+    for (double size = std::abs(value.get<double>()); size >= 1e3 && digits < 15; size /= 10.0) ++digits;
+    return fmt::format("{:.{}g}", value.get<double>(), digits);
+  }
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (!value.is_array()) return "-";
   std::string out;

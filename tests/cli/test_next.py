@@ -205,6 +205,7 @@ def test_the_filter_is_reported(vantage, scan, tmp_path):
     (("SCAN", "--poses", "POSES"), "2 poses for 1 scans"),
     (("SCAN", "--poses", "nowhere.csv"), "nowhere.csv"),
     (("nowhere.ply", "--at", "0,0,0"), "nowhere.ply"),
+    (("SCAN", "--at", "600000,5000000,100"), "in the same coordinates?"),
     (("SCAN", "--at", "2,2,1.5", "--up", "w"), "measured.up"),
     (("SCAN", "--at", "2,2,1.5", "--unit", "yards"), "measured.unit"),
     (("SCAN", "--at", "2,2,1.5", "--height", "-1"), "next.height"),

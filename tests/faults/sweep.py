@@ -301,10 +301,23 @@ def aim(case, text):
     return re.findall(r"^\s*\w+\(|ROOT[^\">]*|\([12]<", text.partition(" = ")[0])
 
 
+def calls_of(trace):
+    """Lines of a trace by strace -f; a call that another thread's line interrupts is put together again."""
+    begun = {}
+    for line in trace.splitlines():
+        process, _, text = line.partition(" ")
+        text = text.strip()
+        if text.endswith("<unfinished ...>"):
+            begun[process] = text.removesuffix("<unfinished ...>")
+        elif text.startswith("<... ") and process in begun:
+            yield begun.pop(process) + text.partition(" resumed>")[2]
+        else:
+            yield text
+
+
 def struck(case, site):
     """Whether the call that was broken is the one that was meant."""
-    lines = (line.partition(" ")[2].strip() for line in (case.bench.folder / "trace").read_text().splitlines())
-    broken = [line for line in lines if line.endswith(("(INJECTED)", "= ?"))]
+    broken = [call for call in calls_of((case.bench.folder / "trace").read_text()) if call.endswith(("(INJECTED)", "= ?"))]
     return bool(broken) and aim(case, broken[0]) == aim(case, site.text)
 
 

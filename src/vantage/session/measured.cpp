@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kBeyond = 1.5;      // Times the range of all but these: farther ones are left out.
+constexpr double kNearest = 2e4;     // A scanner's nearest point is not farther [m].
 constexpr double kFarShare = 0.001;  // Of the points that may lie beyond the range: strays and mixed pixels.
 
 /// A scan of a file and the file it is from.
@@ -92,6 +93,18 @@ std::vector<Vec<3>> in_world(const MeasuredScan& scan, const Placed& placed, con
   return points;
 }
 
+/// A place in other coordinates than the points would make a scan of a speck far away.
+void check_place(const std::vector<Vec<3>>& points, const Placed& placed, const std::string& name) {
+  const Vec<3>& at = placed.pose.position;
+  double nearest = kInfinity;
+  for (const Vec<3>& p : points) nearest = std::min(nearest, (p - at).norm());
+  require(!std::isfinite(nearest) || nearest <= kNearest,
+          fmt::format("all points are farther than {:.0f} km from the scanner at {:.10g},{:.10g},{:.10g} ({}): must be at most {:.0f} km; "
+                      "points and place in the same coordinates?",
+                      std::floor(1e-3 * nearest), at.x(), at.y(), at.z(), placed.source, 1e-3 * kNearest),
+          name);
+}
+
 double range_of(std::span<const std::vector<Vec<3>>> clouds, std::span<const Placed> placed) {
   std::vector<double> ranges;
   for (std::size_t k = 0; k < clouds.size(); ++k)
@@ -150,6 +163,7 @@ std::vector<MeasuredInput> read_measured(std::span<const fs::path> files, const 
     else
       places.push_back(placed(scan, convert));
     clouds.push_back(in_world(scan, places.back(), convert));
+    check_place(clouds.back(), places.back(), scan.name);
   }
   BinOptions bins{options.step, options.min_range, options.range, options.no_return == MeasuredOptions::NoReturn::free};
   if (bins.max_range == 0.0) bins.max_range = std::max(range, range_of(clouds, places));
