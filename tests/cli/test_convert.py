@@ -3,6 +3,7 @@
 
 import json
 import re
+import shutil
 import struct
 import zlib
 
@@ -356,3 +357,9 @@ def test_info_knows_what_convert_wrote(vantage, tmp_path, run):
         done = vantage("info", write(tmp_path / "odd.geojson", text))
         assert (done.returncode == 0) == text.startswith('{"features": ['), done.stderr
         assert done.returncode == 0 or (done.returncode == 2 and done.stderr.count("\n") == 1)
+    deep = '{"features": ' + 100000 * "[" + 100000 * "]" + "}"
+    assert "odd.geojson:112: JSON nests deeper than 100" in vantage("info", write(tmp_path / "odd.geojson", deep)).stderr
+    for text in ("", '{"verdict": [1], "surface": {}}', '{"verdict": {}}', '{"verdict": {}, "surface": ' + 100000 * "["):
+        shutil.copytree(run, tmp_path / "odd", dirs_exist_ok=True)
+        done = vantage("info", write(tmp_path / "odd" / "result.json", text).parent)
+        assert done.returncode == 2 and done.stderr.count("\n") == 1 and "result.json" in done.stderr, done.stderr

@@ -248,3 +248,7 @@ def test_a_scan_that_is_there_is_not_added_twice(vantage, scan, tmp_path):
     assert ask(vantage, run, b, "--at", "8,3,1.5", "--remove", 1)["scans"] == 3
     names = [entry["name"] for entry in json.loads((run / "manifest.json").read_text())["inputs"]]
     assert names == [a.name, a.name, b.name]
+    for text in ("", "[]", '{"inputs": ' + 100000 * "["):  # Costs the names, no scan.
+        (run / "manifest.json").write_text(text)
+        assert ask(vantage, run, b, "--at", "8,3,1.5", "--force")["scans"] == 4
+        assert ask(vantage, run, "--remove", 3)["scans"] == 3

@@ -14,10 +14,14 @@ inline void demand(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Processor time of inputs: the clock on the wall would blame a reader for what else the machine does. The most is printed at the end [ms].
+/// Processor time of inputs: the clock on the wall would blame a reader for what else the machine does. The most is printed at the end [ms],
+/// and that of all [s].
 class Stopwatch {
  public:
-  ~Stopwatch() { std::fprintf(stderr, "stat::slowest_unit_cpu_ms: %.1f\n", 1e3 * static_cast<double>(most_) / CLOCKS_PER_SEC); }
+  ~Stopwatch() {
+    std::fprintf(stderr, "stat::slowest_unit_cpu_ms: %.1f\nstat::cpu_seconds: %ld\n", 1e3 * static_cast<double>(most_) / CLOCKS_PER_SEC,
+                 static_cast<long>(std::clock() / CLOCKS_PER_SEC) + 1);
+  }
   void start() { begin_ = std::clock(); }
   void stop() {
     most_ = std::max(most_, std::clock() - begin_);

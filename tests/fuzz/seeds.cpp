@@ -39,7 +39,7 @@ template <int Dim>
 std::string map() {
   ExchangeMap all;
   Publisher<Dim> publisher("a", 0.1);
-  for (const std::uint64_t seed : {1, 2}) all.add(publisher.publish(corner_scan<Dim>(40, Vec<Dim>::Zero(), seed)));
+  for (const std::uint64_t seed : {1, 2}) all.add(publisher.publish(corner_scan<Dim>(12, Vec<Dim>::Zero(), seed)));
   return all.bytes();
 }
 
@@ -55,6 +55,57 @@ std::string surface() {
   point.count = 1;
   const Patch<Dim> patches[] = {plane, point};
   return patches_as_ply<Dim>(patches);
+}
+
+/// The features of samples::scenes() one by one: half as long and twice as fast.
+std::vector<Seed> city_seeds() {
+  return {
+      {"json", "hole.json",
+       R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.5,1,1],"translate":[9,0,0]},"CityObjects":{"a":{"type":"Building","geometry":[)"
+       R"({"type":"Solid","lod":"2","boundaries":[[[[0,1,2,3],[4,5,6]]]]}]}},"vertices":[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[1,1,0],[2,1,0],[2,2,0]]})"},
+      {"json", "part.json",
+       R"({"type":"CityJSON","version":"1.0","CityObjects":{"a":{"type":"Building","geometry":[{"type":"CompositeSurface","lod":1,"boundaries":)"
+       R"([[[0,1,2]]]}]},"b":{"type":"BuildingPart","parents":["a"],"geometry":[{"type":"MultiSolid","lod":"2","boundaries":[[[[[0,1,2]]]]]}]}},)"
+       R"("vertices":[[0,0,0],[9,0,0],[9,9,0]]})"},
+      {"json", "tree.json",
+       R"({"type":"CityJSON","version":"1.1","CityObjects":{"a":{"type":"Tree","geometry":[{"type":"GeometryInstance","template":0,"boundaries":[0],)"
+       R"("transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,5,0,0,0,1]}]}},"geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2",)"
+       R"("boundaries":[[[0,1,2]]]}],"vertices-templates":[[0,0,0],[1,0,0],[0,0,1]]},"vertices":[[1,2,3]]})"}};
+}
+
+/// A glTF of one triangle, three corners as floats and their indices as bytes, with these members; in `.glb` the buffer is a chunk of its own.
+Seed triangle(const std::string& ending, const std::string& name, const std::string& members, const std::string& accessor) {
+  std::string json = R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],)" + members + R"(,"buffers":[{"byteLength":39)";
+  if (ending == "gltf") json += R"(,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEC")";
+  json += R"(}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":3}],)"
+          R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3")" +
+          accessor + R"(},{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"}]})";
+  if (ending == "gltf") return {ending, name + ".gltf", json};
+  std::string binary, out = "glTF";
+  for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) put(binary, v);
+  binary += std::string("\0\1\2\0", 4);
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  put<std::uint32_t>(out, 2);
+  put(out, static_cast<std::uint32_t>(28 + json.size() + binary.size()));
+  put(out, static_cast<std::uint32_t>(json.size()));
+  out += "JSON" + json;
+  put(out, static_cast<std::uint32_t>(binary.size()));
+  return {ending, name + ".glb", out + std::string("BIN\0", 4) + binary};
+}
+
+std::vector<Seed> triangle_seeds() {
+  std::vector<Seed> seeds;
+  for (const std::string ending : {"gltf", "glb"}) {
+    seeds.push_back(triangle(
+        ending, "matrix",
+        R"("nodes":[{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])",
+        ""));
+    seeds.push_back(triangle(ending, "child",
+                             R"("nodes":[{"children":[1]},{"mesh":0,"rotation":[0,0,1,0],"translation":[1,2,3],"scale":[2,2,2]}],)"
+                             R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":5}]}])",
+                             R"(,"sparse":{"count":1,"indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}})"));
+  }
+  return seeds;
 }
 
 std::vector<Seed> other_seeds() {
@@ -81,6 +132,17 @@ std::vector<Seed> other_seeds() {
       {"poses", "kitti.txt", "1 0 0 5 0 1 0 6 0 0 1 7\n"},
       {"poses", "tum.txt", "0.5 1 2 3 0 0 0 1\n"},
       {"poses", "rows.txt", "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n"},
+      {"yaml", "a.yaml",
+       "image: a.png\nresolution: 0.05 # [m]\norigin: [-1, 2.5, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\nmode: trinary\n"},
+      {"crs", "code.txt", "urn:ogc:def:crs:EPSG::25832"},
+      {"crs", "one.txt", R"(PROJCS["a",GEOGCS["b",AUTHORITY["EPSG","4258"]],UNIT["m",1],AUTHORITY["EPSG","25832"]])"},
+      {"crs", "two.txt", R"(PROJCRS["a",BASEGEOGCRS["b",ID["EPSG",4258]],ID["EPSG",25832]])"},
+      {"zones_geojson", "polygon.json", R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,999]],[[2,1],[3,1],[3,2]]]})"},
+      {"zones_geojson", "features.json",
+       R"({"type":"FeatureCollection","crs":{"properties":{"name":"EPSG:25832"}},"features":[{"type":"Feature","geometry":)"
+       R"({"type":"MultiPolygon","coordinates":[[[[0,0],[9,0],[9,9]]]]}}]})"},
+      {"zones_csv", "corners.csv", "0,0\n9,0\n9,9\n\n1 1\n2 1\n2 2\n"},
+      {"zones_csv", "named.csv", "# zone\nid;x;y\na;0;0\na;9;0\na;9;9\n"},
       {"toml", "a.toml", "[scene]\nname = \"pipes:cylinders=12\"\nstart = [0.0, 0.0, 1.5]\n[surface]\neta = 0.05 # [m]\n[explore]\nfill = true\n"}};
 }
 
@@ -90,8 +152,11 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   try {
     std::vector<Seed> seeds = other_seeds();
+    for (const auto& more : {city_seeds(), triangle_seeds()}) seeds.insert(seeds.end(), more.begin(), more.end());
     for (const auto& files : {samples::all(), samples::scenes()})
-      for (const auto& [name, bytes] : files) seeds.push_back({name.substr(name.rfind('.') + 1), name, bytes});
+      for (const auto& [name, bytes] : files)
+        if (const std::string reader = name.substr(name.rfind('.') + 1); reader != "json" && reader != "gltf" && reader != "glb")
+          seeds.push_back({reader, name, bytes});
     for (const Seed& seed : seeds) {
       const std::filesystem::path folder = std::filesystem::path(arguments[1]) / seed.reader;
       std::filesystem::create_directories(folder);

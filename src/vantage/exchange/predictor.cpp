@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 
 namespace vantage {
 namespace {
@@ -11,6 +12,7 @@ constexpr int kReach = 2047;  ///< Logarithmic odds run from -kReach to kReach, 
 constexpr std::uint32_t kCountMask = 1023;
 constexpr std::uint32_t kMostSeen = 500;  ///< After so many bits a slot forgets at a steady pace.
 constexpr int kRateShift = 15;
+constexpr std::uint32_t kEven = 1U << 31U;  ///< Probability of one half in a slot.
 
 /// Logistic function and its inverse. Made with + * / alone, which IEEE 754 fixes to the bit.
 struct Tables {
@@ -46,10 +48,12 @@ const Tables& tables() {
 Predictor::Predictor(int inputs, int bits, int sets)
     : inputs_(inputs),
       bits_(bits),
-      slots_(static_cast<std::size_t>(inputs) << bits, 1U << 31U),
+      slots_(static_cast<std::uint32_t*>(std::calloc(static_cast<std::size_t>(inputs) << bits, sizeof(std::uint32_t)))),
       weights_(static_cast<std::size_t>(2 * inputs * sets), (1 << 16) / (inputs + 1)),
       used_(static_cast<std::size_t>(inputs)),
-      votes_(static_cast<std::size_t>(2 * inputs)) {}
+      votes_(static_cast<std::size_t>(2 * inputs)) {
+  if (!slots_) throw std::bad_alloc();
+}
 
 std::uint32_t Predictor::predict(std::span<const std::uint32_t> contexts, int set) {
   const Tables& t = tables();
@@ -58,7 +62,7 @@ std::uint32_t Predictor::predict(std::span<const std::uint32_t> contexts, int se
   for (std::size_t i = 0; i < used_.size(); ++i) {
     const std::uint32_t place = contexts[i] * 0x9e3779b1U >> (32 - bits_);
     used_[i] = &slots_[(i << bits_) + place];
-    const std::uint32_t slot = *used_[i], seen = slot & kCountMask;
+    const std::uint32_t slot = *used_[i] ^ kEven, seen = slot & kCountMask;
     votes_[2 * i] = seen == 0 ? 0 : t.stretch[slot >> 20U];
     // A second vote that counts only when the context has been seen often.
     votes_[2 * i + 1] = seen < 12 ? 0 : votes_[2 * i];
@@ -74,9 +78,9 @@ void Predictor::update(bool bit) {
   for (std::size_t k = 0; k < votes_.size(); ++k) row_[k] += static_cast<std::int32_t>((votes_[k] * error) >> kRateShift);
   for (std::uint32_t* slot : used_) {
     const std::uint32_t seen = *slot & kCountMask;
-    const std::int64_t p = *slot >> 10U, aim = bit ? (1 << 22) - 1 : 0;
+    const std::int64_t p = (*slot ^ kEven) >> 10U, aim = bit ? (1 << 22) - 1 : 0;
     const std::int64_t next = p + (((aim - p) * t.pace[seen]) >> 16);
-    *slot = static_cast<std::uint32_t>(next) << 10U | std::min(seen + 1, kMostSeen);
+    *slot = (static_cast<std::uint32_t>(next) << 10U ^ kEven) | std::min(seen + 1, kMostSeen);
   }
 }
 

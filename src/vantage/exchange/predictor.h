@@ -2,6 +2,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,8 +22,14 @@ class Predictor {
   void update(bool bit);
 
  private:
+  struct Free {
+    void operator()(std::uint32_t* slots) const { std::free(slots); }
+  };
+
   int inputs_, bits_;
-  std::vector<std::uint32_t> slots_;   ///< Probability in the upper 22 bits, times seen in the lower 10; (inputs, 2^bits).
+  /// Probability in the upper 22 bits, its first bit turned, times seen in the lower 10; (inputs, 2^bits). So all begin as 0, and memory that the
+  /// system hands out once it is touched serves a short map, which touches little of it.
+  std::unique_ptr<std::uint32_t[], Free> slots_;
   std::vector<std::int32_t> weights_;  ///< 2^16 is one; (sets, 2 inputs).
   std::vector<std::uint32_t*> used_;   ///< Slots of the bit predicted last.
   std::vector<std::int32_t> votes_;    ///< Their logarithmic odds.

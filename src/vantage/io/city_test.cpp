@@ -103,7 +103,7 @@ TEST(CityJson, ErrorsNameThePlace) {
     EXPECT_THAT(error, HasSubstr(c.where + " | ")) << c.to;
     EXPECT_THAT(error, HasSubstr(c.says)) << c.to;
   }
-  EXPECT_THAT(error_of(good.substr(0, 300), "a.json"), HasSubstr("a.json:301 | a.json:301: not JSON"));
+  EXPECT_THAT(error_of(good.substr(0, 300), "a.json"), HasSubstr("a.json:300 | a.json:300: not JSON"));
   EXPECT_THAT(error_of("{}", "a.json"), HasSubstr("not a CityJSON file"));
   EXPECT_THAT(error_of("[1]", "a.json"), HasSubstr("not a CityJSON file"));
   EXPECT_THAT(error_of(std::string(100000, '['), "a.json"), HasSubstr("nests deeper than 100"));

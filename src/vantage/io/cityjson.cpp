@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "vantage/base/error.h"
+#include "vantage/io/json_text.h"
 #include "vantage/io/polygons.h"
 #include "vantage/io/text.h"
 
@@ -20,8 +21,6 @@ namespace {
 
 using Json = nlohmann::json;
 using Transform = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-
-constexpr double kBytesPerByte = 32.0;  ///< Of memory for one of text, at most, as measured on numbers of few digits.
 
 /// A place in the file, as a JSON pointer says it.
 struct Place {
@@ -234,38 +233,12 @@ class CityJson {
   Polygons out_;
 };
 
-/// Where the parser stopped, and why, without the rest of its message.
-[[noreturn]] void not_json(const Json::parse_error& error, const std::string& name) {
-  const std::string what = error.what();
-  const std::size_t reason = what.find("syntax error");
-  throw Error(ErrorCode::bad_input, "not JSON: " + printable(reason == std::string::npos ? what : what.substr(reason), 120),
-              fmt::format("{}:{}", name, error.byte));
-}
-
 }  // namespace
 
-void require_shallow_json(std::string_view bytes, const std::string& name) {
-  constexpr int kDeepest = 100;
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const char c = bytes[i];
-    if (c == '"') quoted = !quoted;
-    if (quoted && c == '\\') ++i;
-    if (quoted) continue;
-    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
-    if (depth > kDeepest) throw Error(ErrorCode::bad_input, fmt::format("JSON nests deeper than {}", kDeepest), fmt::format("{}:{}", name, i));
-  }
-}
-
 SceneGraph parse_cityjson(std::string_view bytes, const std::string& name, double detail) {
-  require_memory(static_cast<double>(bytes.size()), kBytesPerByte, name);
-  require_shallow_json(bytes, name);
   try {
-    const Json root = Json::parse(bytes);
+    const Json root = parse_json(bytes, name);
     return {CityJson(root, name, detail).read(), 'z', 1.0};
-  } catch (const Json::parse_error& error) {
-    not_json(error, name);
   } catch (const Json::exception& error) {
     throw Error(ErrorCode::bad_input, printable(error.what(), 120), name);
   }

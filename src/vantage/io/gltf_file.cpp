@@ -14,13 +14,12 @@
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
+#include "vantage/io/json_text.h"
 #include "vantage/io/polygons.h"
 #include "vantage/io/text.h"
 
 namespace vantage {
 namespace {
-
-constexpr double kBytesPerByte = 32.0;  ///< Of memory for one of JSON, at most.
 
 struct Container {
   std::string_view json, binary;
@@ -94,13 +93,7 @@ struct GltfFile::Layout {
 GltfFile::GltfFile(std::string_view bytes, const std::string& name) : name_(name), file_size_(bytes.size()) {
   const Container parts = open_container(bytes, name);
   binary_ = parts.binary;
-  require_shallow_json(parts.json, name);
-  require_memory(static_cast<double>(parts.json.size()), kBytesPerByte, name);
-  try {
-    json_ = std::make_unique<nlohmann::json>(nlohmann::json::parse(parts.json));
-  } catch (const nlohmann::json::exception& error) {
-    fail(printable(error.what(), 200));
-  }
+  json_ = std::make_unique<nlohmann::json>(parse_json(parts.json, name, static_cast<std::size_t>(parts.json.data() - bytes.data())));
   if (!has(root(), "asset")) fail("not a glTF file: lacks 'asset'");
   const std::string version = text(element(root(), "asset"), "version");
   if (!version.starts_with("2.")) fail(fmt::format("glTF {}: only 2.0 is read", printable(version)));

@@ -21,11 +21,6 @@ namespace {
 
 constexpr std::uint8_t kUnknownShade = 205;  ///< Between ROS's thresholds.
 
-struct Thresholds {
-  double occupied = 0.65, free = 0.196;
-  bool negate = false;
-};
-
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -35,11 +30,10 @@ std::string extension_of(const std::filesystem::path& path) {
 /// A YAML file whose values are asked for one by one.
 class Keys {
  public:
-  explicit Keys(const std::filesystem::path& path) : name_(path.string()) {
-    const std::string bytes = read_file(path);
-    require(bytes.size() <= 1 << 20, "larger than 1 MiB: not a map's description", name_);
+  Keys(const std::string& text, const std::string& name) : name_(name) {
+    require(text.size() <= 1 << 20, "larger than 1 MiB: not a map's description", name_);
     try {
-      root_ = YAML::Load(bytes);
+      root_ = YAML::Load(text);
     } catch (const YAML::Exception& e) {
       throw Error(ErrorCode::bad_input, printable(e.msg, 200), fmt::format("{}:{}", name_, e.mark.line + 1));
     }
@@ -85,26 +79,25 @@ class Keys {
     const std::string mode = root_["mode"].IsScalar() ? root_["mode"].Scalar() : "";
     require(mode == "trinary" || mode == "scale", fmt::format("mode = {}: must be trinary | scale", printable(mode)), name_);
   }
-  [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
-  std::string name_;
+  const std::string& name_;
   YAML::Node root_;
 };
 
-CellState state_of(std::uint8_t shade, const Thresholds& thresholds) {
-  const double p = (thresholds.negate ? shade : 255 - shade) / 255.0;
-  return p > thresholds.occupied ? CellState::occupied : p < thresholds.free ? CellState::free : CellState::unknown;
+CellState state_of(std::uint8_t shade, const MapDescription& description) {
+  const double p = (description.negate ? shade : 255 - shade) / 255.0;
+  return p > description.occupied_threshold ? CellState::occupied : p < description.free_threshold ? CellState::free : CellState::unknown;
 }
 
-void fill_cells(const std::filesystem::path& image, const Thresholds& thresholds, OccupancyMap& map) {
-  const GrayImage gray = read_gray_image(image, thresholds.negate ? 255 - kUnknownShade : kUnknownShade);
+void fill_cells(const std::filesystem::path& image, const MapDescription& description, OccupancyMap& map) {
+  const GrayImage gray = read_gray_image(image, description.negate ? 255 - kUnknownShade : kUnknownShade);
   map.width = gray.width;
   map.height = gray.height;
   map.cells.resize(gray.pixels.size());
   const auto width = static_cast<std::size_t>(gray.width), height = static_cast<std::size_t>(gray.height);
   for (std::size_t row = 0; row < height; ++row)
-    for (std::size_t x = 0; x < width; ++x) map.cells[(height - 1 - row) * width + x] = state_of(gray.pixels[row * width + x], thresholds);
+    for (std::size_t x = 0; x < width; ++x) map.cells[(height - 1 - row) * width + x] = state_of(gray.pixels[row * width + x], description);
 }
 
 /// Collects segments between lattice corners.
@@ -153,25 +146,36 @@ bool is_map_file(const std::filesystem::path& path) {
   return extension == ".yaml" || extension == ".yml" || extension == ".png" || extension == ".pgm";
 }
 
+MapDescription parse_map_description(const std::string& text, const std::string& name) {
+  const Keys keys(text, name);
+  MapDescription map;
+  map.image = keys.image();
+  map.resolution = keys.number("resolution", map.resolution, 1e-4, 1e4);
+  const auto [x, y, yaw] = keys.origin();
+  map.origin = {x, y};
+  map.yaw = yaw;
+  keys.check_mode();
+  map.occupied_threshold = keys.number("occupied_thresh", map.occupied_threshold, 0.0, 1.0);
+  map.free_threshold = keys.number("free_thresh", map.free_threshold, 0.0, 1.0);
+  map.negate = keys.flag("negate");
+  require(map.free_threshold <= map.occupied_threshold,
+          fmt::format("free_thresh = {}: must be <= occupied_thresh = {}", map.free_threshold, map.occupied_threshold), name);
+  return map;
+}
+
 OccupancyMap read_occupancy_map(const std::filesystem::path& path, double resolution) {
-  OccupancyMap map;
-  Thresholds thresholds;
+  MapDescription description;
   std::filesystem::path image = path;
   if (const std::string extension = extension_of(path); extension == ".yaml" || extension == ".yml") {
-    const Keys keys(path);
-    image = path.parent_path() / keys.image();
-    map.resolution = keys.number("resolution", 0.05, 1e-4, 1e4);
-    const auto [x, y, yaw] = keys.origin();
-    map.origin = {x, y};
-    map.yaw = yaw;
-    keys.check_mode();
-    thresholds = {keys.number("occupied_thresh", 0.65, 0.0, 1.0), keys.number("free_thresh", 0.196, 0.0, 1.0), keys.flag("negate")};
-    require(thresholds.free <= thresholds.occupied,
-            fmt::format("free_thresh = {}: must be <= occupied_thresh = {}", thresholds.free, thresholds.occupied), keys.name());
+    description = parse_map_description(read_file(path), path.string());
+    image = path.parent_path() / description.image;
   }
   require(resolution == 0.0 || (resolution >= 1e-4 && resolution <= 1e4), fmt::format("unit = {}: must be 0.0001 .. 10000 [m] a pixel", resolution));
-  if (resolution > 0.0) map.resolution = resolution;
-  fill_cells(image, thresholds, map);
+  OccupancyMap map;
+  map.resolution = resolution > 0.0 ? resolution : description.resolution;
+  map.origin = description.origin;
+  map.yaw = description.yaw;
+  fill_cells(image, description, map);
   return map;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "vantage/geometry/mesh.h"
@@ -26,6 +27,19 @@ struct OccupancyMap {
   /// Place of lattice corner (x, y), in cells [m].
   [[nodiscard]] Vec<2> position(double x, double y) const;
 };
+
+/// What the `.yaml` of a ROS map says, with what holds where it does not.
+struct MapDescription {
+  std::string image;                                         ///< Path, from the folder of the `.yaml`.
+  double resolution = 0.05;                                  ///< Side of a cell [m].
+  Vec<2> origin = Vec<2>::Zero();                            ///< Lower left corner [m].
+  double yaw = 0.0;                                          ///< [rad]
+  double occupied_threshold = 0.65, free_threshold = 0.196;  ///< Of darkness: occupied above, free below [1].
+  bool negate = false;                                       ///< Light is dark.
+};
+
+/// Throws bad_input, naming the file and the line or key.
+[[nodiscard]] MapDescription parse_map_description(const std::string& text, const std::string& name);
 
 /// A ROS map: its `.yaml` (image, resolution, origin, negate, occupied_thresh, free_thresh), or the image alone (PNG, PGM) with the defaults,
 /// 0.05 m a pixel. `resolution` > 0 replaces the file's [m]. Throws io; bad_input, naming the file and the key.

@@ -42,8 +42,6 @@ struct SceneGraph {
 /// < 0: of its highest. A building whose parts are shown in more detail is left to them.
 [[nodiscard]] SceneGraph parse_cityjson(std::string_view bytes, const std::string& name, double detail);
 [[nodiscard]] SceneGraph parse_citygml(std::string_view bytes, const std::string& name, double detail);
-/// Throws bad_input for JSON that nests deeper than 100: parsers of it call themselves.
-void require_shallow_json(std::string_view bytes, const std::string& name);
 /// The level that they show, of those that there are (not empty).
 [[nodiscard]] double chosen_detail(std::span<const double> present, double detail);
 

@@ -9,6 +9,7 @@
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
+#include "vantage/io/json_text.h"
 #include "vantage/io/npy.h"
 #include "vantage/io/patch_file.h"
 #include "vantage/io/ply_file.h"
@@ -113,7 +114,7 @@ Json inspect_image(const fs::path& path) {
 Json member(const Json& json, const char* name) { return json.is_object() && json.contains(name) ? json[name] : Json(); }
 
 Json inspect_features(const fs::path& path) {
-  const Json map = Json::parse(read_file(path), nullptr, false), features = member(map, "features");
+  const Json map = parse_json<Json>(read_file(path), path.string()), features = member(map, "features");
   require(features.is_array(), "not GeoJSON: no features", path.string());
   Json count = Json::object();
   for (const Json& feature : features) {
@@ -155,8 +156,8 @@ Json inspect_run(const fs::path& folder) {
     json["state"] = "stopped before its outputs were saved; --resume goes on";
     return json;
   }
-  const Json saved = Json::parse(read_file(result), nullptr, false);
-  require(saved.is_object() && saved.contains("verdict") && saved.contains("surface"), "not a result", result.string());
+  const Json saved = parse_json<Json>(read_file(result), result.string());
+  require(member(saved, "verdict").is_object() && member(saved, "surface").is_object(), "not a result", result.string());
   for (const char* key : {"scene", "dim", "scans", "path_m", "verdict", "surface"}) json[key] = saved.value(key, Json());
   json["verdict"].erase("unseen");
   json["report"] = (folder / run_file::kReport).string();

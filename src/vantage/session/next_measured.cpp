@@ -10,6 +10,7 @@
 
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
+#include "vantage/io/json_text.h"
 #include "vantage/session/next_answer.h"
 #include "vantage/session/next_coverage.h"
 #include "vantage/session/next_notes.h"
@@ -249,9 +250,13 @@ class MeasuredRun {
     Json before = known_, inputs = Json::array();
     const fs::path manifest = request_.folder / run_file::kManifest;
     if (exists_ && fs::exists(manifest)) {
-      const Json saved = Json::parse(read_file(manifest), nullptr, false);
-      if (saved.is_object() && saved.contains("inputs") && saved["inputs"].is_array())
-        before.insert(before.end(), saved["inputs"].begin(), saved["inputs"].end());
+      try {
+        const Json saved = parse_json<Json>(read_file(manifest), manifest.string());
+        if (saved.is_object() && saved.contains("inputs") && saved["inputs"].is_array())
+          before.insert(before.end(), saved["inputs"].begin(), saved["inputs"].end());
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::bad_input) throw;  // A damaged one costs the scans' names, no scan.
+      }
     }
     for (const int k : kept_) {
       const std::string sum = fmt::format("{:08x}", log_->fingerprint(k));

@@ -92,7 +92,7 @@ TEST(NextZones, ErrorsNameThePlace) {
               HasSubstr("f:/features/0/geometry: must be an object"));
   std::string deep = R"({"type":"Polygon","coordinates":[]})";
   for (int k = 0; k < 3000; ++k) deep = R"({"type":"Feature","geometry":)" + deep + "}";
-  EXPECT_THAT(error_of([&] { return parse_geojson_zones(deep, "f"); }), HasSubstr("too many things in each other"));
+  EXPECT_THAT(error_of([&] { return parse_geojson_zones(deep, "f"); }), HasSubstr("nests deeper than 100"));
   EXPECT_THAT(error_of([] { return parse_csv_zones("0,0\n1,0\n\n2,2\n", "f"); }), HasSubstr("f:1: 2 corners"));
   EXPECT_THAT(error_of([] { return parse_csv_zones("lon,lat\n1,0\n", "f"); }), HasSubstr("names the columns x and y"));
   EXPECT_THAT(error_of([] { return zones_of<3>("1,1,1,0,0,0", "--must-see"); }), HasSubstr("--must-see: the low corner must come first"));

@@ -14,6 +14,7 @@
 #include "vantage/base/version.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/bytes.h"
+#include "vantage/io/json_text.h"
 #include "vantage/session/logged_sensor.h"
 #include "vantage/session/outputs.h"
 #include "vantage/session/scenario_file.h"
@@ -143,7 +144,7 @@ fs::path default_folder(const std::string& scene) {
 template <int Dim>
 void check_input(const fs::path& folder, const Scenario& scenario, const Scene<Dim>& scene) {
   const fs::path path = folder / run_file::kManifest;
-  const Json manifest = Json::parse(read_file(path), nullptr, false);
+  const Json manifest = parse_json<Json>(read_file(path), path.string());
   require(manifest.is_object() && manifest.contains("inputs"), "not a manifest", path.string());
   require(manifest["inputs"] == manifest_json(scenario, scene)["inputs"], fmt::format("{} is not what it was when the run began", scenario.scene),
           path.string());
