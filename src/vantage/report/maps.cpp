@@ -179,7 +179,7 @@ Figure metric_figure(const std::vector<Snapshot<Dim>>& snapshots, const PictureF
 template <int Dim>
 std::string place_text(const Vec<Dim>& p) {
   std::string text;
-  for (int a = 0; a < Dim; ++a) text += fmt::format("{}{:.1f}", a > 0 ? ", " : "", p[a]);
+  for (int a = 0; a < Dim; ++a) text += fmt::format("{}{:.1f}", a > 0 ? ", " : "", std::round(10.0 * p[a]) / 10.0 + 0.0);  // No minus before a zero.
   return text;
 }
 

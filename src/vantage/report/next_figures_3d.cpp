@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "vantage/field/distance.h"
 #include "vantage/planner/regions.h"
 #include "vantage/report/maps.h"
 #include "vantage/report/overlay.h"
@@ -27,8 +28,21 @@ struct Named {
   std::string text;
 };
 
-/// Of every unseen region, by its number, the node nearest to its middle, of those at the height of the cut if there are any: a region all around
-/// what was seen has its middle there.
+/// How deep the nodes of the layer at the height of the cut lie in the unseen and in the picture [m].
+Field<2> depth_in_layer(const Field<3, NodeState>& state, std::int32_t layer) {
+  const Grid<3>& grid = state.window;
+  Field<2, std::uint8_t> known(Grid<2>{grid.spacing, grid.first.head<2>(), grid.extent.head<2>()});
+  for (std::size_t i = 0; i < known.values.size(); ++i) {
+    Index<3> node;
+    node << known.window.local(i), layer;
+    const bool border = (node.array().head<2>() == 0).any() || (node.array().head<2>() + 1 == grid.extent.array().head<2>()).any();
+    known[i] = border || state.at(node) != NodeState::unseen;
+  }
+  return distance_to_set(known);
+}
+
+/// Of every unseen region, by its number, the node that lies deepest in it at the height of the cut, where its hatching is broadest; if it does not
+/// reach there, that nearest to its middle.
 std::vector<Vec<3>> middles_of(const Field<3, NodeState>& state, const Regions<3>& regions, double cut, std::vector<Box<3>>& boxes) {
   std::vector<Vec<3>> middle(regions.count(), Vec<3>::Zero()), best = middle;
   std::vector<double> count(regions.count()), least(regions.count(), kInfinity);
@@ -45,10 +59,13 @@ std::vector<Vec<3>> middles_of(const Field<3, NodeState>& state, const Regions<3
     boxes[id].extend(p);
   });
   for (std::size_t id = 0; id < middle.size(); ++id) middle[id] /= count[id];
+  const Grid<3>& grid = state.window;
+  const std::int32_t layer = std::clamp(grid.nearest(Vec<3>(0.0, 0.0, cut)).z(), 0, grid.extent.z() - 1);
+  const Field<2> depth = depth_in_layer(state, layer);
   for_nodes([&](std::size_t id, const Vec<3>& p) {
-    const bool hatched = std::abs(p.z() - cut) <= 0.5 * state.window.spacing;
-    const double distance = (p - middle[id]).squaredNorm() + (hatched ? 0.0 : 1e12);
-    if (distance < least[id]) least[id] = distance, best[id] = p;
+    const Index<3> node = grid.nearest(p);
+    const double rank = node.z() == layer ? -static_cast<double>(depth.at(node.head<2>())) : (p - middle[id]).norm();
+    if (rank < least[id]) least[id] = rank, best[id] = p;
   });
   return best;
 }
