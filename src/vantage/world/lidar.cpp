@@ -70,7 +70,7 @@ void describe(LidarOptions& o, const OptionVisitor& visit) {
   visit("outliers", o.outliers, "1", Range{0.0, 1.0}, "share of the hits put at a random shorter range");
   visit("pose_noise", o.pose_noise, "m", Range{0.0, 100.0}, "standard deviation of the place from the one it reports, along each axis");
   visit.angle("pose_noise_deg", o.pose_turn, Range{0.0, 45.0}, "standard deviation of the orientation from the one it reports, about each axis");
-  visit("confirmed", o.confirmed, "hits that no ray beside them confirms give no data: against outliers, and at the cost of wires");
+  visit("confirmed", o.confirmed, "hits that too few rays beside them confirm give no data: against outliers, and at the cost of wires");
   visit("smoothed", o.smoothed,
         "hits are put onto the planes of the hits around them: against range_noise, and at the cost of what is smaller than it");
   visit("seed", o.seed, "", Range{0.0, 9.0e15}, "of noise, drop-out and outliers");
