@@ -18,7 +18,7 @@ struct LidarOptions {
   /// Standard deviation along each axis of where the scanner stands from where it says it does; halved where it would stand in an obstacle [m].
   double pose_noise = 0.0;
   double pose_turn = 0.0;  ///< The same of its orientation about each axis [rad].
-  bool confirmed = false;  ///< Drop hits that no ray beside them confirms (confirm.h).
+  bool confirmed = false;  ///< Drop hits that too few rays beside them confirm (confirm.h).
   bool smoothed = false;   ///< Put hits onto the planes of the hits around them (smooth.h).
   std::int64_t seed = 1;   ///< Of the imperfections.
 };
