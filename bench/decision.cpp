@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "decision_peer.h"
+#include "program.h"
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
 #include "vantage/base/random.h"
@@ -232,10 +233,5 @@ int run(int argc, char** argv) {
 }  // namespace vantage::bench
 
 int main(int argc, char** argv) {
-  try {
-    return vantage::bench::run(argc, argv);
-  } catch (const vantage::Error& error) {
-    fmt::print(stderr, "bench_decision: {}\n", error.what());
-    return 2;
-  }
+  return vantage::bench::guarded("bench_decision", [&] { return vantage::bench::run(argc, argv); });
 }

@@ -3,6 +3,7 @@
 //   bench_distance --sizes 128,256,512 --threads 1,2 --json figures.json
 // Medians of `--repeat` runs. Floor: the bytes that must move at the bandwidth measured in the same run.
 #include "fields.h"
+#include "program.h"
 
 #include <fmt/format.h>
 #include <time.h>
@@ -408,10 +409,5 @@ int run(int argc, char** argv) {
 }  // namespace vantage::bench
 
 int main(int argc, char** argv) {
-  try {
-    return vantage::bench::run(argc, argv);
-  } catch (const vantage::Error& error) {
-    fmt::print(stderr, "bench_distance: {}\n", error.what());
-    return 2;
-  }
+  return vantage::bench::guarded("bench_distance", [&] { return vantage::bench::run(argc, argv); });
 }

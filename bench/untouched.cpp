@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "program.h"
 #include "vantage/audit/trial.h"
 #include "vantage/base/error.h"
 #include "vantage/base/parallel.h"
@@ -88,10 +89,5 @@ int run(int argc, char** argv) {
 }  // namespace vantage::bench
 
 int main(int argc, char** argv) {
-  try {
-    return vantage::bench::run(argc, argv);
-  } catch (const vantage::Error& error) {
-    fmt::print(stderr, "bench_untouched: {}\n", error.what());
-    return 2;
-  }
+  return vantage::bench::guarded("bench_untouched", [&] { return vantage::bench::run(argc, argv); });
 }
