@@ -81,16 +81,10 @@ Seed triangle(const std::string& ending, const std::string& name, const std::str
           R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3")" +
           accessor + R"(},{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"}]})";
   if (ending == "gltf") return {ending, name + ".gltf", json};
-  std::string binary, out = "glTF";
+  std::string binary;
   for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) put(binary, v);
   binary += std::string("\0\1\2\0", 4);
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  put<std::uint32_t>(out, 2);
-  put(out, static_cast<std::uint32_t>(28 + json.size() + binary.size()));
-  put(out, static_cast<std::uint32_t>(json.size()));
-  out += "JSON" + json;
-  put(out, static_cast<std::uint32_t>(binary.size()));
-  return {ending, name + ".glb", out + std::string("BIN\0", 4) + binary};
+  return {ending, name + ".glb", samples::packed_glb(json, binary)};
 }
 
 std::vector<Seed> triangle_seeds() {

@@ -99,8 +99,9 @@ inline std::string gltf(const std::string& buffer) {
 {"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0,
 "byteOffset":60}}}]})";
 }
-inline std::string glb() {
-  std::string json = gltf(""), binary = gltf_buffer(), out = "glTF";
+/// The container of both, as a `.glb`.
+inline std::string packed_glb(std::string json, const std::string& binary) {
+  std::string out = "glTF";
   json.resize((json.size() + 3) / 4 * 4, ' ');
   put<std::uint32_t>(out, 2);
   put(out, static_cast<std::uint32_t>(28 + json.size() + binary.size()));
@@ -109,6 +110,7 @@ inline std::string glb() {
   put(out, static_cast<std::uint32_t>(binary.size()));
   return out + std::string("BIN\0", 4) + binary;
 }
+inline std::string glb() { return packed_glb(gltf(""), gltf_buffer()); }
 /// The buffer as text: all floats are 0 or 1, all indices small.
 inline std::string gltf() {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
