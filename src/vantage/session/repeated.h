@@ -10,7 +10,7 @@ namespace vantage {
 /// A scan that is another one once more, and would only pretend to be more.
 struct Repetition {
   double share = 0.0;  ///< Of up to 2,000 points of one of the two, those that the other has, too.
-  std::string how;     ///< Of a sentence: "those of", "seen from the same place in", "those of (with another pose)".
+  std::string how;     ///< Of a sentence: "those of", "seen from the same place in", "with another pose those of".
 };
 
 /// A repetition is one of three:
