@@ -39,7 +39,7 @@ NO_FACES = CUBE.replace("element face 12", "element face 0").split("3 0 2 1\n")[
 
 FILES = {
     "newer.vmap": b"VANTMAP2" + 8 * b"\0",
-    "short.vmap": b"VANTMAP1\0\0\0",
+    "short.vmap": b"VANTMAP2\0\0\0",
     "empty.ply": b"",
     "empty.pcd": b"",
     "empty.xyz": b"",

@@ -95,7 +95,7 @@ std::string ExchangeMap::bytes() const {
 ExchangeMap parse_map(std::string_view bytes, std::string_view where) {
   const auto here = [&](std::size_t offset) { return fmt::format("{}:{}", where, offset); };
   require(bytes.starts_with(kMapMagic.substr(0, kMapMagic.size() - 1)), "not a map of vantage", here(0));
-  require(bytes.starts_with(kMapMagic), "a map of another version: 1 is known", here(kMapMagic.size() - 1));
+  require(bytes.starts_with(kMapMagic), "a map of another version: 2 is known", here(kMapMagic.size() - 1));
   require(bytes.size() >= kHeader, "the file ends in its header", here(bytes.size()));
   require(checksum(bytes.substr(0, kHeader - kChecksum)) == get<std::uint32_t>(bytes, kHeader - kChecksum), "wrong checksum of the header",
           here(kHeader - kChecksum));

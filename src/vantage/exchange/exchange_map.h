@@ -43,7 +43,7 @@ class ExchangeMap {
 };
 
 /// How a map file begins.
-inline constexpr std::string_view kMapMagic = "VANTMAP1";
+inline constexpr std::string_view kMapMagic = "VANTMAP2";
 
 /// Throws bad_input, naming `where` and the offset, for anything that `ExchangeMap::bytes` does not write: every byte is under a checksum.
 [[nodiscard]] ExchangeMap parse_map(std::string_view bytes, std::string_view where);

@@ -15,8 +15,8 @@
 namespace vantage {
 namespace {
 
-/// A leaf takes a bit at least, and no prediction is surer than 1 - 2^-12: so many leaves fit into a byte at most.
-constexpr std::size_t kMostPerByte = 8 * 2840;
+/// A leaf takes a bit at least, and no prediction is surer than 1 - 2^-8: so many leaves fit into a byte at most.
+constexpr std::size_t kMostPerByte = 8 * 178;
 
 template <int Dim>
 using Cells = std::vector<LevelCell<Dim>>;

@@ -95,6 +95,36 @@ TYPED_TEST(LeafCodes, WrongCountsAndWrongBytesEndInAnErrorOrInLeaves) {
   EXPECT_LT(survived, static_cast<int>(bytes.size() / 3));
 }
 
+/// As predictable as leaves can be: the densest code that is written must be one that is read.
+TYPED_TEST(LeafCodes, AFullBlockOfCellsIsReadBackAndNotTakenForTooShort) {
+  constexpr int Dim = TypeParam::value;
+  const std::uint32_t width = Dim == 2 ? 256 : 32;
+  Leaves<Dim> leaves;
+  for (std::size_t i = 0; i < (Dim == 2 ? width * width : width * width * width); ++i) {
+    CellNumber<Dim> at;
+    std::size_t rest = i;
+    for (std::uint32_t& a : at) {
+      a = ExchangeLattice<Dim>::kOrigin + static_cast<std::uint32_t>(rest % width);
+      rest /= width;
+    }
+    leaves.sites.push_back({at, 3});
+  }
+  const std::string code = encode_leaves(leaves);
+  EXPECT_GT(leaves.sites.size(), 30 * code.size());
+  EXPECT_EQ(decode_leaves<Dim>(code, counts(leaves), "here").sites.size(), leaves.sites.size());
+}
+
+/// Few bytes cannot keep a reader busy.
+TYPED_TEST(LeafCodes, LeavesThatNoCodeIsShortEnoughForAreRefusedUnread) {
+  constexpr int Dim = TypeParam::value;
+  try {
+    (void)decode_leaves<Dim>(std::string(200, '\0'), {500000, 12}, "here");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "here: 500012 leaves in 200 bytes: no code is so short");
+  }
+}
+
 TYPED_TEST(LeafCodes, RefuseWhatTheFormatCannotSay) {
   constexpr int Dim = TypeParam::value;
   CellNumber<Dim> far{};

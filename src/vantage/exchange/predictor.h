@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include "vantage/exchange/bit_coder.h"
 
 namespace vantage {
 
@@ -37,10 +40,13 @@ class Predictor {
   std::uint32_t probability_ = 0;
 };
 
+/// No prediction is taken for surer than 255 : 1, so that few bytes cannot stand for very many leaves, which take a reader long.
+inline constexpr std::uint32_t kLeastSure = kCertain >> 8U;
+
 /// Codes `bit`, or reads it, with the prediction from `contexts`.
 template <class Coder>
 bool code_bit(Coder& coder, Predictor& predictor, bool bit, std::span<const std::uint32_t> contexts, int set = 0) {
-  bit = coder.code(bit, predictor.predict(contexts, set));
+  bit = coder.code(bit, std::clamp(predictor.predict(contexts, set), kLeastSure, kCertain - kLeastSure));
   predictor.update(bit);
   return bit;
 }
