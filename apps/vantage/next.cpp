@@ -55,6 +55,7 @@ constexpr Flag kFlags[] = {
     {"--min-range", "METRES", "measured.min_range", "Scans"},
     {"--step-deg", "DEGREES", "measured.step_deg", "Scans"},
     {"--filter", "WHAT", "measured.filter", "Scans"},
+    {"--moved", "WHAT", "next.moved", "Scans"},
     {"--eta", "METRES", "surface.eta", "Method"},
     {"--voxel", "METRES", "explore.voxel", "Method"},
     {"--grid", "CELLS", "explore.grid", "Method"},

@@ -12,13 +12,15 @@ from next_scenes import COARSE, ask, at, write_slabs
 DOMAIN = "0,0,0,10,6,3"
 
 
+SLABS = [((-1, -1, -1), (11, 7, 0)), ((-1, -1, 3), (11, 7, 4)), ((-1, -1, 0), (0, 7, 3)), ((10, -1, 0), (11, 7, 3)),
+         ((0, -1, 0), (10, 0, 3)), ((0, 6, 0), (10, 7, 3)), ((4.9, 0, 0), (5.1, 4.5, 3))]  # fmt: skip
+
+
 @pytest.fixture(scope="module")
 def rooms(tmp_path_factory):
     """Two rooms, 10 x 6 x 3 m together, with a door 1.5 m wide between them."""
     path = tmp_path_factory.mktemp("rooms") / "rooms.obj"
-    slabs = [((-1, -1, -1), (11, 7, 0)), ((-1, -1, 3), (11, 7, 4)), ((-1, -1, 0), (0, 7, 3)), ((10, -1, 0), (11, 7, 3)),
-             ((0, -1, 0), (10, 0, 3)), ((0, 6, 0), (10, 7, 3)), ((4.9, 0, 0), (5.1, 4.5, 3))]  # fmt: skip
-    write_slabs(path, slabs)
+    write_slabs(path, SLABS)
     return path
 
 
@@ -177,6 +179,23 @@ def test_a_scan_given_twice_is_refused(vantage, scan, tmp_path):
     assert ask(vantage, run / "scans.log")["ranked"] == ask(vantage, run)["ranked"]  # The log stands for its folder.
 
 
+def test_what_another_scan_looks_through_has_moved(vantage, scan, tmp_path):
+    """A person in the first scan only, which a second scan shows: the log keeps all points, so asking again finds who has gone meanwhile."""
+    peopled, run = tmp_path / "peopled.obj", tmp_path / "run"
+    write_slabs(peopled, [*SLABS, ((2.8, 4.0, 0.001), (3.2, 4.4, 1.7))])
+    first = tmp_path / "first.ply"
+    assert vantage("scan", peopled, "--step-deg", 2, "--at", "2,2,1.5", "-o", first, "-q").returncode == 0
+    alone = ask(vantage, first, "--at", "2,2,1.5", "--domain", DOMAIN, *COARSE, "--moved", "drop", "-o", run)
+    assert alone["moved"] == [0]
+    both = ask(vantage, run, scan(4, 5, 1.5), "--at", "4,5,1.5")
+    assert both["moved"][0] > 20 and both["moved"][1] == 0
+    note = next(note for note in both["notes"] if "moved" in note)
+    assert f" {both['moved'][0]} " in note
+    kept = ask(vantage, run, "--moved", "keep")
+    assert "moved" not in kept and not any("moved" in note for note in kept["notes"])
+
+
+
 def test_the_filter_is_reported(vantage, scan, tmp_path):
     rows = scan(2, 2, 1.5).read_bytes()
     points = list(struct.iter_unpack("<3f", rows[rows.index(b"end_header\n") + 11 :]))
@@ -197,6 +216,7 @@ def test_the_filter_is_reported(vantage, scan, tmp_path):
 @pytest.mark.parametrize("arguments, says", [
     ((), "SCANS is missing"),
     (("SCAN", "--at", "2,2,1.5", "--filter", "veil"), "measured.filter"),
+    (("SCAN", "--at", "2,2,1.5", "--moved", "gone"), "next.moved"),
     (("SCAN", "--at", "2,2,1.5", "--set", "measured.filter_angle_deg=90"), "0.1 .. 45"),
     (("SCAN",), "--at x,y,z"),
     (("SCAN", "--at", "1,2"), "x,y,z"),

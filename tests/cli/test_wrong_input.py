@@ -38,7 +38,7 @@ end_header
 NO_FACES = CUBE.replace("element face 12", "element face 0").split("3 0 2 1\n")[0]
 
 FILES = {
-    "newer.vmap": b"VANTMAP2" + 8 * b"\0",
+    "newer.vmap": b"VANTMAP3" + 8 * b"\0",
     "short.vmap": b"VANTMAP2\0\0\0",
     "empty.ply": b"",
     "empty.pcd": b"",

@@ -29,6 +29,7 @@ NextOutcome of_explored(const NextRequest& request, const World& world, const Sc
   check_lists<Dim>(setup.next);
   require(std::array{false, true}[Dim - 2] || (setup.next.height == 0.0 && setup.next.stand != NextOptions::Stand::ground), "a plane has no heights",
           "--height");
+  require(setup.next.moved == NextOptions::Moved::keep, "of a person's scans: in a built scene nothing moves", "--moved");
   const Scenario scenario = with_settings(
       world.scenario,
       [&] {

@@ -11,6 +11,7 @@
 #include "vantage/base/error.h"
 #include "vantage/io/atomic_file.h"
 #include "vantage/io/json_text.h"
+#include "vantage/scan/moved.h"
 #include "vantage/session/next_answer.h"
 #include "vantage/session/next_coverage.h"
 #include "vantage/session/next_notes.h"
@@ -70,7 +71,8 @@ class MeasuredRun {
 
   NextOutcome go() {
     settle();
-    Playback<3> playback([this](int k) { return scan(k); });
+    find_moved();
+    Playback<3> playback([this](int k) { return moved_.empty() ? scan(k) : without_points(scan(k), moved_[static_cast<std::size_t>(k)]); });
     ExploreOptions options = setup_.scenario.explore;
     options.max_scans = scans();  // So that the last one's picture is kept.
     options.snapshots = !request_.folder.empty();
@@ -88,6 +90,7 @@ class MeasuredRun {
     const double beyond = coverage.beyond(explorer.view());
     if (const std::string note = coverage.note(beyond); !note.empty()) outcome_.notes.push_back(note);
     outcome_.json["coverage"] = coverage.json(beyond);
+    for (const auto& points : moved_) outcome_.json["moved"].push_back(points.size());
     outcome_.json["notes"] = outcome_.notes;
     outcome_.unreachable = answer.ranked.empty() && !answer.verdict.complete;
     if (!request_.folder.empty()) save(explorer, answer);
@@ -133,6 +136,21 @@ class MeasuredRun {
   [[nodiscard]] Scan<3> scan(int k) const {
     const auto i = static_cast<std::size_t>(k);
     return i < kept_.size() ? log_->read(kept_[i]) : added_[i - kept_.size()].scan;
+  }
+
+  /// The log keeps all points: which of them moved is found again with every scan more.
+  void find_moved() {
+    if (setup_.next.moved == NextOptions::Moved::keep) return;
+    stage("moved");
+    std::vector<Scan<3>> all;
+    for (int k = 0; k < scans(); ++k) all.push_back(scan(k));
+    moved_ = moved_points<3>(all, setup_.next.moved_gap);
+    std::size_t points = 0, moved = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      points += hit_points(all[k]).size();
+      moved += moved_[k].size();
+    }
+    outcome_.notes.push_back(moved_note(moved, points, setup_.next.moved_gap));
   }
 
   /// Domain, lattice and tolerance, if nobody set them.
@@ -276,7 +294,8 @@ class MeasuredRun {
   std::optional<ScanLog<3>> log_;
   std::vector<int> kept_;
   std::vector<MeasuredInput> added_;
-  Json known_ = Json::array();  ///< Of scans that were named but are there already.
+  std::vector<std::vector<std::size_t>> moved_;  ///< Points of every scan; empty: all are kept.
+  Json known_ = Json::array();                   ///< Of scans that were named but are there already.
   Scene<3> scene_;
   NextOutcome outcome_;
 };

@@ -68,6 +68,13 @@ std::string filter_note(std::span<const MeasuredInput> inputs, const FilterOptio
   return out + ". Their rays end where they did: nothing behind them counts as seen.";
 }
 
+std::string moved_note(std::size_t moved, std::size_t points, double gap) {
+  return fmt::format(
+      "Of {} points {} ({:.2f} %) were left out as moved: rays of another scan go on at least {:g} m behind them, and no other scan met "
+      "anything so near to them. Their rays end where they did.",
+      points, moved, 100.0 * static_cast<double>(moved) / static_cast<double>(std::max<std::size_t>(points, 1)), gap);
+}
+
 Json input_json(const MeasuredInput& input) {
   return {{"name", input.name},
           {"format", input.format},

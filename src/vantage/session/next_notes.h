@@ -23,5 +23,7 @@ namespace vantage {
 [[nodiscard]] std::string no_return_note(std::span<const MeasuredInput> inputs, const MeasuredOptions& options);
 /// What the filter took out, by which rule.
 [[nodiscard]] std::string filter_note(std::span<const MeasuredInput> inputs, const FilterOptions& options);
+/// How many points of all moved, found with `gap` [m].
+[[nodiscard]] std::string moved_note(std::size_t moved, std::size_t points, double gap);
 
 }  // namespace vantage

@@ -76,6 +76,10 @@ void describe(NextOptions& o, const OptionVisitor& visit) {
   visit("overlap", o.overlap, "", Range{0.0, 1.0}, "least share of known surface in view, to register the scan by");
   visit("incidence_deg", o.incidence, "deg", Range{1.0, 90.0},
         "largest angle between a ray and the normal of what it meets: flatter, nothing new counts, and known surface is to be seen again; 90: any");
+  visit("moved", o.moved, Choices{"keep", "drop"},
+        "points that another scan looks through and where no other scan met anything: people, cars, doors");
+  visit("moved_gap", o.moved_gap, "m", Range{0.01, 100.0},
+        "of moved points: so far from them is what other scans met, at least; more than poses are wrong by");
   visit("margin", o.margin, "m", Range{0.0, 1e4}, "of the domain around the points; 0: two cells");
 }
 

@@ -16,13 +16,16 @@ struct NextOptions {
   /// Where the scanner stands: on walkable ground, anywhere in the seen space, or as the scans were taken: of a person's scans on the ground, if
   /// ground is found below them, of simulated ones anywhere.
   enum class Stand { scans, ground, air } stand = Stand::scans;
-  double height = 0.0;          ///< Above the ground [m]; 0: as the scans were taken.
-  double slope = 30.0;          ///< Steepest ground [deg].
-  double step = 0.2;            ///< Highest step [m].
-  double apart = 0.0;           ///< Between places of the list [m]; 0: four cells, but 1 m at least.
-  double overlap = 0.0;         ///< Least share of known surface in view [1].
-  double incidence = 90.0;      ///< Between ray and normal: what is met flatter does not count as seen well [deg].
-  double margin = 0.0;          ///< Of the domain around the points [m]; 0: two cells.
+  double height = 0.0;      ///< Above the ground [m]; 0: as the scans were taken.
+  double slope = 30.0;      ///< Steepest ground [deg].
+  double step = 0.2;        ///< Highest step [m].
+  double apart = 0.0;       ///< Between places of the list [m]; 0: four cells, but 1 m at least.
+  double overlap = 0.0;     ///< Least share of known surface in view [1].
+  double incidence = 90.0;  ///< Between ray and normal: what is met flatter does not count as seen well [deg].
+  double margin = 0.0;      ///< Of the domain around the points [m]; 0: two cells.
+  /// A person's points that another scan looks through (moved.h).
+  enum class Moved { keep, drop } moved = Moved::keep;
+  double moved_gap = 0.2;       ///< So far from them is what other scans met, at least [m].
   std::vector<double> domain;   ///< Low corner, high corner [m]; empty: around the points.
   std::vector<double> among;    ///< Only these places come into question, one after the other [m]; empty: all that can be reached.
   std::vector<double> planned;  ///< Stations already planned, one after the other [m].

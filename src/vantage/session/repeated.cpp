@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "vantage/scan/rays_around.h"
+
 namespace vantage {
 namespace {
 
@@ -83,36 +85,16 @@ struct Around {
   bool known = true;                     ///< All of the rays were fired.
 };
 
-/// The image of a scan, looked up by places.
-class Image {
- public:
-  explicit Image(const Scan<3>& scan) : scan_(scan), columns_(scan.pattern.columns()), rows_(scan.pattern.rows<3>()) {}
-
-  [[nodiscard]] Around around(const Vec<3>& place) const {
-    const Vec<3> d = scan_.world_from_sensor.transpose() * (place - scan_.origin);
-    const ScanPattern& pattern = scan_.pattern;
-    const auto ray = [&](double angle, double first) { return static_cast<int>(std::lround((angle - first) / pattern.step)); };
-    const int column = ray(angle_of(d.y(), d.x()), pattern.azimuth(0));
-    const int row = ray(angle_of(d.z(), std::sqrt(d.x() * d.x() + d.y() * d.y())), pattern.elevation(0));
-    Around around;
-    for (int c = column - 1; c <= column + 1; ++c)
-      for (int r = row - 1; r <= row + 1; ++r) {
-        const int wrapped = pattern.full_circle() ? (c + columns_) % columns_ : c;
-        const bool inside = wrapped >= 0 && wrapped < columns_ && r >= 0 && r < rows_;
-        const float range = inside ? scan_.range(wrapped, r) : kNoData;
-        if (std::isnan(range)) around.known = false;
-        if (!std::isfinite(range)) continue;
-        around.first = std::min(around.first, static_cast<double>(range));
-        around.last = std::max(around.last, static_cast<double>(range));
-      }
-    return around;
-  }
-  [[nodiscard]] double distance(const Vec<3>& place) const { return (place - scan_.origin).norm(); }
-
- private:
-  const Scan<3>& scan_;
-  int columns_, rows_;
-};
+Around around(const Scan<3>& scan, const Vec<3>& place) {
+  Around around;
+  each_ray_around(scan, place, [&](float range, int, int) {
+    if (std::isnan(range)) around.known = false;
+    if (!std::isfinite(range)) return;
+    around.first = std::min(around.first, static_cast<double>(range));
+    around.last = std::max(around.last, static_cast<double>(range));
+  });
+  return around;
+}
 
 template <class Test>
 double share_of(const Points& points, Test&& test) {
@@ -122,20 +104,18 @@ double share_of(const Points& points, Test&& test) {
 
 /// Of the scan's points, those that lie on what the other met.
 double in_view_of(const Points& points, const Scan<3>& other) {
-  const Image image(other);
   return share_of(points, [&](const Vec<3>& p) {
-    const Around around = image.around(p);
-    const double distance = image.distance(p), noise = kNoise + kRangeNoise * distance;
-    return around.first - noise <= distance && distance <= around.last + noise;
+    const Around met = around(other, p);
+    const double distance = (p - other.origin).norm(), noise = kNoise + kRangeNoise * distance;
+    return met.first - noise <= distance && distance <= met.last + noise;
   });
 }
 
 /// Of the scan's points, those that float in what the other saw to be free.
 double floating(const Points& points, const Scan<3>& other) {
-  const Image image(other);
   return share_of(points, [&](const Vec<3>& p) {
-    const Around around = image.around(p);
-    return around.known && image.distance(p) < std::min(around.first, other.pattern.max_range) - kClear;
+    const Around met = around(other, p);
+    return met.known && (p - other.origin).norm() < std::min(met.first, other.pattern.max_range) - kClear;
   });
 }
 

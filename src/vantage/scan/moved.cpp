@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vantage/scan/moved.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "vantage/base/parallel.h"
+#include "vantage/scan/rays_around.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kSpacings = 2.0;  // Distances between rays that count as at the point.
+constexpr double kWidest = 60.0;   // Rays to each side that are looked at.
+constexpr int kJoint = 3;          // Rays between hits that are joined by a line, at most.
+constexpr std::size_t kChunk = 256;
+
+/// Whether the scan's rays around a place go on behind it.
+template <int Dim>
+bool looks_through(const Scan<Dim>& scan, const Vec<Dim>& place, double gap) {
+  const double range = (place - scan.origin).norm();
+  if (range < scan.pattern.min_range || range > scan.pattern.max_range) return false;
+  bool ended = false;
+  std::array<bool, 4> through = {false, false, Dim == 2, Dim == 2};  // To the left, right, below and above.
+  each_ray_around(scan, place, [&](float ray, int across, int up) {
+    const double behind = static_cast<double>(ray) - range;  // Infinite if nothing was met, NaN if nothing is known.
+    ended = ended || behind <= gap;
+    if (!(behind > gap)) return;
+    if (across != 0) through[across < 0 ? 0 : 1] = true;
+    if (up != 0) through[up < 0 ? 2 : 3] = true;
+  });
+  return !ended && std::all_of(through.begin(), through.end(), [](bool side) { return side; });
+}
+
+template <int Dim>
+double distance_to_line(const Vec<Dim>& p, const Vec<Dim>& a, const Vec<Dim>& b) {
+  const Vec<Dim> line = b - a;
+  const double length = line.squaredNorm();
+  return (p - a - (length > 0.0 ? std::clamp((p - a).dot(line) / length, 0.0, 1.0) : 0.0) * line).norm();
+}
+
+/// Whether the scan met something within `gap` of a place: a hit, or a line between two that follow each other along a column (in the plane along
+/// the circle), as the rings on the ground do.
+template <int Dim>
+bool meets(const Scan<Dim>& scan, const Vec<Dim>& place, double gap) {
+  const Vec<Dim> local = scan.world_from_sensor.transpose() * (place - scan.origin);
+  const ScanPattern& pattern = scan.pattern;
+  const RayPlace middle = ray_towards(scan, place);
+  const int wide = static_cast<int>(std::min(kWidest, gap / (local.norm() * pattern.step))) + 1, lines = Dim == 2 ? 0 : wide;
+  for (int line = -lines; line <= lines; ++line) {
+    std::optional<Vec<Dim>> last;
+    int since = 0;
+    for (int k = -wide - kJoint; k <= wide + kJoint; ++k, ++since) {
+      const RayPlace ray = Dim == 2 ? RayPlace{middle.column + k, 0} : RayPlace{middle.column + line, middle.row + k};
+      const float range = range_of(scan, ray);
+      if (!std::isfinite(range)) continue;
+      const Vec<Dim> hit = static_cast<double>(range) * ray_direction<Dim>(pattern, ray);
+      if (distance_to_line<Dim>(local, last && since <= kJoint ? *last : hit, hit) <= gap) return true;
+      last = hit;
+      since = 0;
+    }
+  }
+  return false;
+}
+
+template <int Dim>
+bool has_moved(const std::vector<Scan<Dim>>& scans, std::size_t own, const Vec<Dim>& place, double gap) {
+  const auto reach = [&](std::size_t k) { return std::max(gap, kSpacings * scans[k].pattern.step * (place - scans[k].origin).norm()); };
+  bool through = false;
+  for (std::size_t k = 0; k < scans.size() && !through; ++k) through = k != own && looks_through(scans[k], place, std::max(reach(own), reach(k)));
+  for (std::size_t k = 0; k < scans.size() && through; ++k) through = k == own || !meets(scans[k], place, std::max(reach(own), reach(k)));
+  return through;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::vector<std::size_t>> moved_points(const std::vector<Scan<Dim>>& scans, double gap) {
+  std::vector<std::vector<std::size_t>> all(scans.size());
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    const std::vector<Vec<Dim>> points = hit_points(scans[k]);
+    std::vector<std::uint8_t> moved(points.size(), 0);
+    parallel_for(points.size(), kChunk, [&](std::size_t i) { moved[i] = has_moved(scans, k, points[i], gap) ? 1 : 0; });
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      if (moved[i] != 0) all[k].push_back(i);
+  }
+  return all;
+}
+
+template <int Dim>
+Scan<Dim> without_points(Scan<Dim> scan, const std::vector<std::size_t>& numbers) {
+  if (!scan.points.empty() && scan.points.size() == numbers.size()) {
+    scan.points.clear();
+    std::fill(scan.ranges.begin(), scan.ranges.end(), kNoData);
+    return scan;
+  }
+  std::size_t point = 0;
+  auto next = numbers.begin();
+  const auto named = [&] {
+    const bool yes = next != numbers.end() && *next == point++;
+    if (yes) ++next;
+    return yes;
+  };
+  if (!scan.points.empty())
+    std::erase_if(scan.points, [&](const Vec<Dim>&) { return named(); });
+  else
+    for (float& range : scan.ranges)
+      if (std::isfinite(range) && named()) range = kNoData;
+  return scan;
+}
+
+template std::vector<std::vector<std::size_t>> moved_points(const std::vector<Scan<2>>&, double);
+template std::vector<std::vector<std::size_t>> moved_points(const std::vector<Scan<3>>&, double);
+template Scan<2> without_points(Scan<2>, const std::vector<std::size_t>&);
+template Scan<3> without_points(Scan<3>, const std::vector<std::size_t>&);
+
+}  // namespace vantage

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cmath>
+
+#include "vantage/geometry/angle.h"
+#include "vantage/scan/scan.h"
+
+namespace vantage {
+
+/// Column and row of a ray; neither need be in the pattern.
+struct RayPlace {
+  int column = 0, row = 0;
+};
+
+/// The ray nearest to the direction of a place in the world.
+template <int Dim>
+[[nodiscard]] RayPlace ray_towards(const Scan<Dim>& scan, const Vec<Dim>& place) {
+  const ScanPattern& pattern = scan.pattern;
+  const Vec<Dim> local = scan.world_from_sensor.transpose() * (place - scan.origin);
+  const auto ray = [](double angle, double step) { return static_cast<int>(std::lround(angle / step)); };
+  const double across = pattern.full_circle() ? 2.0 * kPi / pattern.columns() : pattern.step;
+  const int column = ray(angle_of(local[1], local[0]) - pattern.azimuth(0), across);
+  if constexpr (Dim == 2)
+    return {column, 0};
+  else
+    return {column, ray(angle_of(local[2], local.template head<2>().norm()) - pattern.elevation(0), pattern.step)};
+}
+
+/// Range of a ray; columns go round a full circle, and kNoData stands for what the pattern does not have.
+template <int Dim>
+[[nodiscard]] float range_of(const Scan<Dim>& scan, const RayPlace& ray) {
+  const int columns = scan.pattern.columns(), rows = scan.pattern.template rows<Dim>();
+  const int column = scan.pattern.full_circle() ? (ray.column % columns + columns) % columns : ray.column;
+  return column >= 0 && column < columns && ray.row >= 0 && ray.row < rows ? scan.range(column, ray.row) : kNoData;
+}
+
+/// Unit direction of a ray in the sensor frame: as directions() has it.
+template <int Dim>
+[[nodiscard]] Vec<Dim> ray_direction(const ScanPattern& pattern, const RayPlace& ray) {
+  const auto [sine, cosine] = sin_cos(pattern.azimuth(ray.column));
+  if constexpr (Dim == 2) {
+    return {cosine, sine};
+  } else {
+    const auto [up, level] = sin_cos(pattern.elevation(ray.row));
+    return {level * cosine, level * sine, up};
+  }
+}
+
+/// Calls `visit(range, across, up)` for the ray nearest to a place and those beside it: `across` columns, -1 to 1, and `up` rows, in the plane 0.
+template <int Dim, class Visit>
+void each_ray_around(const Scan<Dim>& scan, const Vec<Dim>& place, Visit&& visit) {
+  const RayPlace ray = ray_towards(scan, place);
+  for (int across = -1; across <= 1; ++across)
+    for (int up = 2 - Dim; up <= Dim - 2; ++up) visit(range_of(scan, {ray.column + across, ray.row + up}), across, up);
+}
+
+}  // namespace vantage
