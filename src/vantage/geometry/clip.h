@@ -7,6 +7,9 @@
 
 namespace vantage {
 
+/// Shorter edges, as a share of the size of what they bound, are none.
+inline constexpr double kLeastEdge = 1e-9;
+
 /// Convex piece of a line (Rank 1: an interval) or of a plane (Rank 2: a polygon in order), in coordinates within it [m].
 template <int Rank>
   requires(Rank == 1 || Rank == 2)
@@ -25,7 +28,8 @@ struct ConvexRegion {
   [[nodiscard]] ConvexRegion simplified(double tolerance) const;
   /// Nearest place of the region.
   [[nodiscard]] Place closest(const Place& p) const;
-  /// Unit normal, outwards, of the edge from vertex i to the next (Rank 1: of vertex i); zero if the edge has no length.
+  /// Unit normal, outwards, of the edge from vertex i to the next (Rank 1: of vertex i); zero if the edge is shorter than kLeastEdge of the region's
+  /// size: between corners that rounding alone keeps apart an edge runs anywhere, across the region too.
   [[nodiscard]] Place edge_normal(int i) const;
   /// Length or area.
   [[nodiscard]] double measure() const;

@@ -57,13 +57,22 @@ ConvexRegion<2> ConvexRegion<2>::simplified(double tolerance) const {
 }
 
 template <>
+Place ConvexRegion<2>::edge_normal(int i) const {
+  const Place edge = vertices[(i + 1) % count] - vertices[i];
+  const double length = edge.norm();
+  double size = 0.0;
+  for (int k = 1; k < count; ++k) size = std::max(size, (vertices[k] - vertices[0]).norm());
+  return length > kLeastEdge * size ? Place(edge[1] / length, -edge[0] / length) : Place(Place::Zero());
+}
+
+template <>
 Place ConvexRegion<2>::closest(const Place& p) const {
   bool inside = true;
   Place best = vertices[0];
   double best2 = kInfinity;
   for (int i = 0; i < count; ++i) {
     const Place &a = vertices[i], &b = vertices[(i + 1) % count];
-    if (cross(b - a, p - a) >= 0.0) continue;
+    if (cross(b - a, p - a) >= 0.0 || !(edge_normal(i).squaredNorm() > 0.0)) continue;
     inside = false;
     const Place q = closest_on_edge(a, b, p);
     if ((q - p).squaredNorm() < best2) {
@@ -79,13 +88,6 @@ double ConvexRegion<2>::measure() const {
   double twice = 0.0;
   for (int i = 1; i + 1 < count; ++i) twice += cross(vertices[i] - vertices[0], vertices[i + 1] - vertices[0]);
   return 0.5 * twice;
-}
-
-template <>
-Place ConvexRegion<2>::edge_normal(int i) const {
-  const Place edge = vertices[(i + 1) % count] - vertices[i];
-  const double length = edge.norm();
-  return length > 0.0 ? Place(edge[1] / length, -edge[0] / length) : Place(Place::Zero());
 }
 
 template <>

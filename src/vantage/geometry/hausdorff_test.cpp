@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/base/random.h"
+#include "vantage/geometry/angle.h"
 #include "vantage/geometry/disc_cover.h"
 
 namespace vantage {
@@ -140,6 +141,32 @@ TEST(Discs, FindAGapExactlyWhereThereIsOne) {
   }
   EXPECT_GT(gaps, 500);
   EXPECT_GT(covered, 500);
+}
+
+/// Clipping leaves corners that rounding alone keeps apart; the edge between them runs anywhere, and bounds nothing.
+TEST(CornersThatAreOne, BoundNothing) {
+  Random random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    ConvexRegion<2> plain, doubled;
+    const int corners = 3 + static_cast<int>(random.below(4));
+    for (int i = 0; i < corners; ++i) {
+      const auto [sine, cosine] = sin_cos((i + 0.8 * random.uniform()) * 2.0 * kPi / corners);
+      const Place<2> corner(cosine, sine);
+      plain.vertices[plain.count++] = doubled.vertices[doubled.count++] = corner;
+      if (i % 2 == 0) doubled.vertices[doubled.count++] = corner + Place<2>(random.uniform(-1e-16, 1e-16), random.uniform(-1e-16, 1e-16));
+    }
+    Feet<2> feet;
+    for (int i = 0; i < 20; ++i) add<2>(feet, Place<2>(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)), 0.1);
+    const auto radius = covering_radius<2>(doubled, feet, 10.0);
+    ASSERT_TRUE(radius);
+    for (int i = 0; i < 2000; ++i) {
+      Place<2> p(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+      EXPECT_LT((doubled.closest(p) - plain.closest(p)).norm(), 1e-12);
+      EXPECT_NEAR(RegionEdges<2>(doubled).outside(p), RegionEdges<2>(plain).outside(p), 1e-12);
+      p = plain.closest(p);
+      EXPECT_LE(nearest<2>(feet, p), *radius * (1.0 + 1e-9));
+    }
+  }
 }
 
 TYPED_TEST(Covering, ClosedForms) {

@@ -23,13 +23,14 @@ bool looks_through(const Scan<Dim>& scan, const Vec<Dim>& place, double gap) {
   const double range = (place - scan.origin).norm();
   if (range < scan.pattern.min_range || range > scan.pattern.max_range) return false;
   bool ended = false;
-  std::array<bool, 4> through = {false, false, Dim == 2, Dim == 2};  // To the left, right, below and above.
+  std::array<bool, std::size_t{2 * (Dim - 1)}> through{};  // To the left and right, in space below and above.
   each_ray_around(scan, place, [&](float ray, int across, int up) {
     const double behind = static_cast<double>(ray) - range;  // Infinite if nothing was met, NaN if nothing is known.
     ended = ended || behind <= gap;
     if (!(behind > gap)) return;
-    if (across != 0) through[across < 0 ? 0 : 1] = true;
-    if (up != 0) through[up < 0 ? 2 : 3] = true;
+    const std::array<int, 2> beside = {across, up};
+    for (std::size_t a = 0; a < Dim - 1; ++a)
+      if (beside[a] != 0) through[2 * a + (beside[a] > 0 ? 1 : 0)] = true;
   });
   return !ended && std::all_of(through.begin(), through.end(), [](bool side) { return side; });
 }
@@ -48,12 +49,12 @@ bool meets(const Scan<Dim>& scan, const Vec<Dim>& place, double gap) {
   const Vec<Dim> local = scan.world_from_sensor.transpose() * (place - scan.origin);
   const ScanPattern& pattern = scan.pattern;
   const RayPlace middle = ray_towards(scan, place);
-  const int wide = static_cast<int>(std::min(kWidest, gap / (local.norm() * pattern.step))) + 1, lines = Dim == 2 ? 0 : wide;
+  const int wide = static_cast<int>(std::min(kWidest, gap / (local.norm() * pattern.step))) + 1, lines = (Dim - 2) * wide;
   for (int line = -lines; line <= lines; ++line) {
     std::optional<Vec<Dim>> last;
     int since = 0;
     for (int k = -wide - kJoint; k <= wide + kJoint; ++k, ++since) {
-      const RayPlace ray = Dim == 2 ? RayPlace{middle.column + k, 0} : RayPlace{middle.column + line, middle.row + k};
+      const RayPlace ray{middle.column + std::array{k, line}[Dim - 2], middle.row + (Dim - 2) * k};
       const float range = range_of(scan, ray);
       if (!std::isfinite(range)) continue;
       const Vec<Dim> hit = static_cast<double>(range) * ray_direction<Dim>(pattern, ray);

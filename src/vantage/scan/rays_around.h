@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <cmath>
 
 #include "vantage/geometry/angle.h"
@@ -19,11 +20,8 @@ template <int Dim>
   const Vec<Dim> local = scan.world_from_sensor.transpose() * (place - scan.origin);
   const auto ray = [](double angle, double step) { return static_cast<int>(std::lround(angle / step)); };
   const double across = pattern.full_circle() ? 2.0 * kPi / pattern.columns() : pattern.step;
-  const int column = ray(angle_of(local[1], local[0]) - pattern.azimuth(0), across);
-  if constexpr (Dim == 2)
-    return {column, 0};
-  else
-    return {column, ray(angle_of(local[2], local.template head<2>().norm()) - pattern.elevation(0), pattern.step)};
+  const double up = angle_of((Dim - 2) * local[Dim - 1], local.template head<2>().norm());
+  return {ray(angle_of(local[1], local[0]) - pattern.azimuth(0), across), (Dim - 2) * ray(up - pattern.elevation(0), pattern.step)};
 }
 
 /// Range of a ray; columns go round a full circle, and kNoData stands for what the pattern does not have.
@@ -34,16 +32,20 @@ template <int Dim>
   return column >= 0 && column < columns && ray.row >= 0 && ray.row < rows ? scan.range(column, ray.row) : kNoData;
 }
 
+/// Unit direction in the sensor frame by sine and cosine of its angles.
+template <int Dim>
+[[nodiscard]] Vec<Dim> direction_of(const std::array<double, 2>& azimuth, const std::array<double, 2>& elevation) {
+  Vec<Dim> d;
+  d[0] = elevation[1] * azimuth[1];
+  d[1] = elevation[1] * azimuth[0];
+  for (int a = 2; a < Dim; ++a) d[a] = elevation[0];
+  return d;
+}
+
 /// Unit direction of a ray in the sensor frame: as directions() has it.
 template <int Dim>
 [[nodiscard]] Vec<Dim> ray_direction(const ScanPattern& pattern, const RayPlace& ray) {
-  const auto [sine, cosine] = sin_cos(pattern.azimuth(ray.column));
-  if constexpr (Dim == 2) {
-    return {cosine, sine};
-  } else {
-    const auto [up, level] = sin_cos(pattern.elevation(ray.row));
-    return {level * cosine, level * sine, up};
-  }
+  return direction_of<Dim>(sin_cos(pattern.azimuth(ray.column)), sin_cos((Dim - 2) * pattern.elevation(ray.row)));
 }
 
 /// Calls `visit(range, across, up)` for the ray nearest to a place and those beside it: `across` columns, -1 to 1, and `up` rows, in the plane 0.

@@ -3,19 +3,12 @@
 
 #include <cmath>
 
+#include "vantage/scan/rays_around.h"
+
 namespace vantage {
 namespace {
 
 int steps(double fov, double step) { return static_cast<int>(std::floor(fov / step + 1e-6)); }
-
-template <int Dim>
-Vec<Dim> direction_of(const std::array<double, 2>& azimuth, const std::array<double, 2>& elevation) {
-  Vec<Dim> d;
-  d[0] = elevation[1] * azimuth[1];
-  d[1] = elevation[1] * azimuth[0];
-  for (int a = 2; a < Dim; ++a) d[a] = elevation[0];
-  return d;
-}
 
 }  // namespace
 

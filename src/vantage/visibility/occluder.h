@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "vantage/geometry/clip.h"
 #include "vantage/geometry/patch.h"
 
 namespace vantage {
@@ -27,7 +28,7 @@ struct Occluder {
       const Vec<Dim> along = patch.vertices[(i + 1) % patch.count] - a, inward = center - a;
       Vec<Dim> outward = along * (along.dot(inward) / std::max(along.squaredNorm(), 1e-300)) - inward;
       outward -= n * n.dot(outward);
-      const double length = outward.norm();
+      const double length = along.norm() > kLeastEdge * radius ? outward.norm() : 0.0;  // Between corners that are one, an edge runs anywhere.
       edge_normal[static_cast<std::size_t>(i)] = length > 0.0 ? Vec<Dim>(outward / length) : Vec<Dim>(Vec<Dim>::Zero());
       edge_offset[static_cast<std::size_t>(i)] = edge_normal[static_cast<std::size_t>(i)].dot(a);
     }
