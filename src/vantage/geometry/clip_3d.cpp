@@ -2,6 +2,7 @@
 // Convex polygons, counter-clockwise, which is what a plane of space leaves in a cube.
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "vantage/geometry/clip.h"
 #include "vantage/geometry/hausdorff.h"
@@ -59,10 +60,12 @@ ConvexRegion<2> ConvexRegion<2>::simplified(double tolerance) const {
 template <>
 Place ConvexRegion<2>::edge_normal(int i) const {
   const Place edge = vertices[(i + 1) % count] - vertices[i];
-  const double length = edge.norm();
-  double size = 0.0;
-  for (int k = 1; k < count; ++k) size = std::max(size, (vertices[k] - vertices[0]).norm());
-  return length > kLeastEdge * size ? Place(edge[1] / length, -edge[0] / length) : Place(Place::Zero());
+  const double length2 = edge.squaredNorm();
+  double size2 = 0.0;
+  for (int k = 1; k < count; ++k) size2 = std::max(size2, (vertices[k] - vertices[0]).squaredNorm());
+  if (!(length2 > kLeastEdge * kLeastEdge * size2)) return Place::Zero();
+  const double length = std::sqrt(length2);
+  return {edge[1] / length, -edge[0] / length};
 }
 
 template <>
