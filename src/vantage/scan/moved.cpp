@@ -92,23 +92,23 @@ std::vector<std::vector<std::size_t>> moved_points(const std::vector<Scan<Dim>>&
 
 template <int Dim>
 Scan<Dim> without_points(Scan<Dim> scan, const std::vector<std::size_t>& numbers) {
-  if (!scan.points.empty() && scan.points.size() == numbers.size()) {
-    scan.points.clear();
-    std::fill(scan.ranges.begin(), scan.ranges.end(), kNoData);
+  if (scan.points.empty()) {
+    std::size_t hit = 0;
+    for (float& range : scan.ranges)
+      if (std::isfinite(range) && std::binary_search(numbers.begin(), numbers.end(), hit++)) range = kNoData;
     return scan;
   }
+  if (scan.points.size() == numbers.size()) std::fill(scan.ranges.begin(), scan.ranges.end(), kNoData);
+  for (const std::size_t number : numbers) {
+    const double range = (scan.points[number] - scan.origin).norm(), near = kSpacings * scan.pattern.step * range;
+    const RayPlace middle = ray_towards(scan, scan.points[number]);
+    for (int across = -1; across <= 1; ++across)
+      for (int up = 2 - Dim; up <= Dim - 2; ++up)
+        if (const auto ray = number_of<Dim>(scan.pattern, {middle.column + across, middle.row + up}))
+          if (std::abs(static_cast<double>(scan.ranges[*ray]) - range) <= near) scan.ranges[*ray] = kNoData;
+  }
   std::size_t point = 0;
-  auto next = numbers.begin();
-  const auto named = [&] {
-    const bool yes = next != numbers.end() && *next == point++;
-    if (yes) ++next;
-    return yes;
-  };
-  if (!scan.points.empty())
-    std::erase_if(scan.points, [&](const Vec<Dim>&) { return named(); });
-  else
-    for (float& range : scan.ranges)
-      if (std::isfinite(range) && named()) range = kNoData;
+  std::erase_if(scan.points, [&](const Vec<Dim>&) { return std::binary_search(numbers.begin(), numbers.end(), point++); });
   return scan;
 }
 

@@ -16,7 +16,8 @@ namespace vantage {
 template <int Dim>
 [[nodiscard]] std::vector<std::vector<std::size_t>> moved_points(const std::vector<Scan<Dim>>& scans, double gap);
 
-/// A scan without these hit_points. Its rays keep their ranges, if it keeps points besides them; else they give no data.
+/// A scan without these hit_points, given ascending. Their rays give no data: neither a surface nor what is free before it is known by them. Of a
+/// scan that keeps points besides its rays these are the 3 x 3 nearest to each, those that end there.
 template <int Dim>
 [[nodiscard]] Scan<Dim> without_points(Scan<Dim> scan, const std::vector<std::size_t>& numbers);
 

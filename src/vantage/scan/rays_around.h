@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "vantage/geometry/angle.h"
 #include "vantage/scan/scan.h"
@@ -24,12 +25,20 @@ template <int Dim>
   return {ray(angle_of(local[1], local[0]) - pattern.azimuth(0), across), (Dim - 2) * ray(up - pattern.elevation(0), pattern.step)};
 }
 
-/// Range of a ray; columns go round a full circle, and kNoData stands for what the pattern does not have.
+/// Number of a ray among the ranges; columns go round a full circle. None if the pattern does not have it.
+template <int Dim>
+[[nodiscard]] std::optional<std::size_t> number_of(const ScanPattern& pattern, const RayPlace& ray) {
+  const int columns = pattern.columns(), rows = pattern.template rows<Dim>();
+  const int column = pattern.full_circle() ? (ray.column % columns + columns) % columns : ray.column;
+  if (column < 0 || column >= columns || ray.row < 0 || ray.row >= rows) return std::nullopt;
+  return static_cast<std::size_t>(column * rows + ray.row);
+}
+
+/// Range of a ray; kNoData if the pattern does not have it.
 template <int Dim>
 [[nodiscard]] float range_of(const Scan<Dim>& scan, const RayPlace& ray) {
-  const int columns = scan.pattern.columns(), rows = scan.pattern.template rows<Dim>();
-  const int column = scan.pattern.full_circle() ? (ray.column % columns + columns) % columns : ray.column;
-  return column >= 0 && column < columns && ray.row >= 0 && ray.row < rows ? scan.range(column, ray.row) : kNoData;
+  const auto number = number_of<Dim>(scan.pattern, ray);
+  return number ? scan.ranges[*number] : kNoData;
 }
 
 /// Unit direction in the sensor frame by sine and cosine of its angles.

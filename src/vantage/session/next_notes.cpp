@@ -71,7 +71,7 @@ std::string filter_note(std::span<const MeasuredInput> inputs, const FilterOptio
 std::string moved_note(std::size_t moved, std::size_t points, double gap) {
   return fmt::format(
       "Of {} points {} ({:.2f} %) were left out as moved: rays of another scan go on at least {:g} m behind them, and no other scan met "
-      "anything so near to them. Their rays end where they did.",
+      "anything so near to them. Nothing is taken from their rays.",
       points, moved, 100.0 * static_cast<double>(moved) / static_cast<double>(std::max<std::size_t>(points, 1)), gap);
 }
 
