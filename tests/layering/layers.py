@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The rules of the source tree, checked line by line: who may include whom (src/vantage/LAYERS), where the dimension may be asked for,
-which folder names are refused, and the licence line on top of every source. `layers.py [ROOT]` prints every breach as FILE:LINE: REASON."""
+which folder names are refused, the licence line on top of every source, and that no name stands for two things. `layers.py [ROOT]` prints every breach as FILE:LINE: REASON."""
 
 import re
 import sys
@@ -10,6 +10,8 @@ from pathlib import Path
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]vantage/([^/">]+)/[^">]+[">]')
 DIMENSION = re.compile(r"\bDim\s*[=!<>]=\s*[23]\b|\b[23]\s*[=!]=\s*Dim\b|\bif\s+constexpr\s*\(\s*!?\s*Dim\b|\bDim\s*[<>]\s*[23]\b(?!\s*>)")
 CONCEPT = re.compile(r"\bconcept\s+SpatialDim\b")
+NAMESPACE = re.compile(r"namespace (\w+(?:::\w+)*) \{")
+DEFINITION = re.compile(r"(?:template .*)?inline constexpr [^=({]*?\b(\w+)(?:\[\w*\])?\s*[={(]|(?:struct|class|enum class|enum) (\w+)[^;]*\{")
 REFUSED_FOLDERS = {"util", "utils", "common", "misc", "helpers"}
 SOURCES = {".h", ".cpp"}
 LICENSED = SOURCES | {".py", ".cmake", ".sh"}
@@ -79,12 +81,32 @@ def check_file(root, path, layer, for_tests=()):
             yield relative, number, "branch on the dimension outside a _2d or _3d file"
 
 
+def defined_names(text):
+    """(line, constant or type with its namespace) for those that a header defines outside other types, which begin their lines."""
+    space = ""
+    for number, line in enumerate(without_comments(text).splitlines(), 1):
+        if opened := NAMESPACE.match(line):
+            space = opened.group(1)
+        elif found := DEFINITION.match(line):
+            yield number, f"{space}::{found.group(1) or found.group(2)}"
+
+
+def double_names(root):
+    """Constants and types that two headers of the library define: sources with one of the two each would be linked into nonsense without a word."""
+    first = {}
+    for path in sorted((root / "src/vantage").rglob("*.h")):
+        for number, name in defined_names(path.read_text()):
+            known = first.setdefault(name, path)
+            if known != path:
+                yield path.relative_to(root), number, f"{name} is also in {known.relative_to(root)}"
+
+
 def needs_licence(path):
     return path.suffix in LICENSED or (not path.suffix and path.name != "LAYERS" and path.read_bytes().startswith(b"#!"))
 
 
 def check_tree(root):
-    """All breaches below `root`, sorted."""
+    """All breaches below `root`: file by file, then the names that two headers define."""
     root = Path(root)
     layer = read_layers(root / "src/vantage/LAYERS")
     breaches = []
@@ -102,7 +124,7 @@ def check_tree(root):
                 breaches.append((relative, 1, "the line SPDX-License-Identifier: Apache-2.0 is missing"))
             if path.suffix in SOURCES:
                 breaches.extend(check_file(root, path, layer, for_tests))
-    return breaches
+    return breaches + list(double_names(root))
 
 
 def main(arguments):

@@ -75,6 +75,19 @@ def test_breach_in_a_comment_is_none(tree):
     assert breaches(tree("src/vantage/base/error.h", '/*\n#include "vantage/geometry/vec.h"\n*/ // Dim == 2\n')) == []
 
 
+@pytest.mark.parametrize("definition", ["inline constexpr int kLanes = 8;", "struct Lanes {", "template <int Dim>\nclass Lanes final : Base {", "enum class Lanes : int { a };"])
+def test_name_of_two_things_is_found(tree, definition):
+    tree("src/vantage/scan/one.h", f"namespace vantage {{\n{definition}\n")
+    root = tree("src/vantage/surface/two.h", f"namespace vantage {{\n\n{definition}\n")
+    line, name = 3 + len(definition.splitlines()), "kLanes" if "kLanes" in definition else "Lanes"
+    assert breaches(root) == [("src/vantage/surface/two.h", line, f"vantage::{name} is also in src/vantage/scan/one.h")]
+
+
+def test_same_name_in_another_namespace_in_a_type_or_only_declared_is_none(tree):
+    tree("src/vantage/scan/one.h", "namespace vantage {\nstruct Lanes {\n  struct Row {};\n};\nclass Scan;\n")
+    assert breaches(tree("src/vantage/surface/two.h", "namespace vantage {\nstruct Row {};\nclass Scan;\nnamespace samples {\nstruct Lanes {};\n")) == []
+
+
 @pytest.mark.parametrize("folder", sorted(layers.REFUSED_FOLDERS))
 def test_refused_folder(tree, folder):
     root = tree(f"tests/{folder}/x.py", licence="# " + SPDX)

@@ -9,7 +9,10 @@
 
 #ifdef __SANITIZE_THREAD__
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
+#include <vector>
 #endif
 
 namespace vantage {
@@ -25,9 +28,17 @@ void for_each_chunk(std::size_t chunks, const Body& body) {
     return;
   }
   std::atomic<std::size_t> next{0};
+  std::exception_ptr error;
+  std::mutex mutex;
   const auto work = [&] {
     inside = true;
-    for (std::size_t c = next++; c < chunks; c = next++) body(c);
+    try {
+      for (std::size_t c = next++; c < chunks; c = next++) body(c);
+    } catch (...) {
+      next = chunks;
+      const std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
+    }
     inside = false;
   };
   std::vector<std::thread> others;
@@ -35,6 +46,7 @@ void for_each_chunk(std::size_t chunks, const Body& body) {
   for (std::size_t t = 1; t < threads; ++t) others.emplace_back(work);
   work();
   for (std::thread& other : others) other.join();
+  if (error) std::rethrow_exception(error);
 }
 #else
 template <class Body>

@@ -45,8 +45,8 @@ class SiteTransform {
 
   void pass(const Shape& shape, std::size_t at) {
     const LineMinimum<Real> minimum(shape.length);
-    const std::size_t size = shape.length * kLanes;
-    parallel_chunks(shape.stride, kTiles * kLanes, [&](std::size_t begin, std::size_t end) {
+    const std::size_t size = shape.length * kTileLanes;
+    parallel_chunks(shape.stride, kTiles * kTileLanes, [&](std::size_t begin, std::size_t end) {
       Tiles<Real> old_squares(shape, begin, end), squares(shape, begin, end);
       Tiles<std::int32_t> old_sites(shape, begin, end), sites(shape, begin, end);
       old_squares.read(squares_.values.data() + at, shape, begin, end);
@@ -54,7 +54,7 @@ class SiteTransform {
       for (std::size_t t = 0; t < sites.size(); t += size) {
         minimum(old_squares.data() + t, squares.data() + t, sites.data() + t);
         for (std::size_t k = t; k < t + size; ++k)
-          sites.data()[k] = old_sites.data()[t + static_cast<std::size_t>(sites.data()[k]) * kLanes + (k - t) % kLanes];
+          sites.data()[k] = old_sites.data()[t + static_cast<std::size_t>(sites.data()[k]) * kTileLanes + (k - t) % kTileLanes];
       }
       for_tile_rows(shape, begin, end, [&](std::size_t node, std::size_t lane, std::size_t count) {
         copy_lanes(squares.data() + lane, squares_.values.data() + at + node, count);

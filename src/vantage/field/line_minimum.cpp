@@ -10,7 +10,7 @@ namespace vantage {
 namespace {
 
 constexpr std::ptrdiff_t kStep = 8;  ///< Rows apart that the divide and conquer places; those between are searched together.
-constexpr auto kStride = static_cast<std::ptrdiff_t>(kLanes);
+constexpr auto kStride = static_cast<std::ptrdiff_t>(kTileLanes);
 
 // Vectors of 16 bytes as gcc and clang know them: every x86-64 and ARM has them.
 template <class Real>
@@ -93,7 +93,7 @@ Reach search(const Tile<Real>& t, std::ptrdiff_t i, Reach reach) {
   Vector<Real> j = Vector<Real>{} + static_cast<Real>(reach.low);
   from.fill(j);
   const Real* in = t.in + reach.low * kStride;
-  for (std::ptrdiff_t k = reach.low - i; k <= reach.high - i; ++k, in += kLanes, j += Real(1)) {
+  for (std::ptrdiff_t k = reach.low - i; k <= reach.high - i; ++k, in += kTileLanes, j += Real(1)) {
     const Vector<Real> square = load(t.squares + kWidth<Real> * k);
     for (std::size_t p = 0; p < best.size(); ++p) {
       const Vector<Real> other = load(in + kWidth<Real> * static_cast<std::ptrdiff_t>(p)) + square;
@@ -103,9 +103,9 @@ Reach search(const Tile<Real>& t, std::ptrdiff_t i, Reach reach) {
   }
   std::memcpy(t.out + i * kStride, &best, sizeof best);
   if (t.row != nullptr)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < kTileLanes; ++lane) {
       const auto width = static_cast<std::size_t>(kWidth<Real>);
-      t.row[static_cast<std::size_t>(i) * kLanes + lane] = static_cast<std::int32_t>(from[lane / width][lane % width]);
+      t.row[static_cast<std::size_t>(i) * kTileLanes + lane] = static_cast<std::int32_t>(from[lane / width][lane % width]);
     }
   return {static_cast<std::ptrdiff_t>(over_lanes<Real>(from, [](const auto& a, const auto& b) { return a < b ? a : b; })),
           static_cast<std::ptrdiff_t>(over_lanes<Real>(from, [](const auto& a, const auto& b) { return a > b ? a : b; }))};
@@ -121,13 +121,13 @@ void fill_between(const Tile<Real>& t, std::ptrdiff_t i, const Reach& reach) {
     best.fill(Vector<Real>{} + Real(2) * kFarSquare<Real>);
     const Real* in = t.in + reach.low * kStride + lane;
     const Real* square = t.squares + kWidth<Real> * (reach.low - i);
-    for (std::ptrdiff_t j = reach.low; j <= reach.high; ++j, in += kLanes, square += kWidth<Real>) {
+    for (std::ptrdiff_t j = reach.low; j <= reach.high; ++j, in += kTileLanes, square += kWidth<Real>) {
       const Vector<Real> value = load(in);
       for (std::size_t row = 0; row < kBetween; ++row)
         best[row] = lesser(value + load(square - kWidth<Real> * static_cast<std::ptrdiff_t>(row + 1)), best[row]);
     }
     Real* out = t.out + (i + 1) * kStride + lane;
-    for (std::size_t row = 0; row < rows; ++row) std::memcpy(out + row * kLanes, &best[row], sizeof best[row]);
+    for (std::size_t row = 0; row < rows; ++row) std::memcpy(out + row * kTileLanes, &best[row], sizeof best[row]);
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// Lines are taken side by side, this many at a time: a tile is rows of kLanes neighbours, row after row.
-inline constexpr std::size_t kLanes = 16;
+/// Lines are taken side by side, this many at a time: a tile is rows of kTileLanes neighbours, row after row.
+inline constexpr std::size_t kTileLanes = 16;
 
 /// Stands for "none yet" among squared lattice distances: a square added to it is not below it, and no exact square reaches it.
 template <class Real>
@@ -25,7 +25,7 @@ template <class Real>
 class LineMinimum {
  public:
   explicit LineMinimum(std::size_t length);
-  /// `tile` and `out`: length x kLanes, apart from each other.
+  /// `tile` and `out`: length x kTileLanes, apart from each other.
   void operator()(const Real* tile, Real* out) const;
   /// The same; also the row that is nearest, the first if several are.
   void operator()(const Real* tile, Real* out, std::int32_t* row) const;

@@ -57,11 +57,11 @@ void for_runs(const Bits& bits, std::size_t length, Run&& run) {
   return begin == 0 ? begin : end == length ? end : begin + (end - begin + 1) / 2;
 }
 
-/// `count` values, at most kLanes; whole tiles without a call.
+/// `count` values, at most kTileLanes; whole tiles without a call.
 template <class Value>
 void copy_lanes(const Value* from, Value* to, std::size_t count) {
-  if (count == kLanes) {
-    std::memcpy(to, from, kLanes * sizeof(Value));
+  if (count == kTileLanes) {
+    std::memcpy(to, from, kTileLanes * sizeof(Value));
   } else {
     std::copy_n(from, count, to);
   }
@@ -72,28 +72,28 @@ struct Shape {
   std::size_t stride, length;
 };
 
-/// The tiles of columns [begin, end) of a block: calls body(node, lane, count) for runs of at most kLanes neighbours, `lane` counting row by row in
-/// tile after tile.
+/// The tiles of columns [begin, end) of a block: calls body(node, lane, count) for runs of at most kTileLanes neighbours, `lane` counting row by row
+/// in tile after tile.
 template <class Body>
 void for_tile_rows(const Shape& shape, std::size_t begin, std::size_t end, Body&& body) {
   for (std::size_t i = 0; i < shape.length; ++i)
-    for (std::size_t from = begin; from < end; from += kLanes)
-      body(i * shape.stride + from, (from - begin) * shape.length + i * kLanes, std::min(kLanes, end - from));
+    for (std::size_t from = begin; from < end; from += kTileLanes)
+      body(i * shape.stride + from, (from - begin) * shape.length + i * kTileLanes, std::min(kTileLanes, end - from));
 }
 
-[[nodiscard]] inline std::size_t tiles_in(std::size_t begin, std::size_t end) { return (end - begin + kLanes - 1) / kLanes; }
+[[nodiscard]] inline std::size_t tiles_in(std::size_t begin, std::size_t end) { return (end - begin + kTileLanes - 1) / kTileLanes; }
 
 /// Values lane by lane, tile after tile, of columns [begin, end); not set at first.
 template <class Value>
 class Tiles {
  public:
   Tiles(const Shape& shape, std::size_t begin, std::size_t end)
-      : size_(tiles_in(begin, end) * shape.length * kLanes), values_(std::make_unique_for_overwrite<Value[]>(size_)) {}
+      : size_(tiles_in(begin, end) * shape.length * kTileLanes), values_(std::make_unique_for_overwrite<Value[]>(size_)) {}
   /// Those of a block; idle lanes do as their neighbour does.
   void read(const Value* block, const Shape& shape, std::size_t begin, std::size_t end) {
     for_tile_rows(shape, begin, end, [&](std::size_t node, std::size_t lane, std::size_t count) {
       copy_lanes(block + node, data() + lane, count);
-      for (std::size_t idle = count; idle < kLanes; ++idle) values_[lane + idle] = values_[lane + count - 1];
+      for (std::size_t idle = count; idle < kTileLanes; ++idle) values_[lane + idle] = values_[lane + count - 1];
     });
   }
   [[nodiscard]] Value* data() { return values_.get(); }

@@ -13,7 +13,7 @@ namespace {
 using Shorts = std::int16_t __attribute__((vector_size(16)));  // As gcc and clang know them: every x86-64 and ARM has them.
 
 constexpr std::size_t kGroup = 8;  ///< Rows that are looked at or skipped together.
-using Row = std::array<Shorts, kLanes / 8>;
+using Row = std::array<Shorts, kTileLanes / 8>;
 
 struct Least {
   Shorts operator()(const Shorts& a, const Shorts& b) const { return a < b ? a : b; }
@@ -52,7 +52,7 @@ template <int Side>
 bool has_side(const std::int16_t* tile, std::size_t length) {
   Row most{};
   for (std::size_t i = 0; i < length; ++i) {
-    const Row row = load_side<Side>(tile + i * kLanes);
+    const Row row = load_side<Side>(tile + i * kTileLanes);
     for (std::size_t p = 0; p < row.size(); ++p) most[p] = Most()(most[p], row[p]);
   }
   return over_lanes(most, Most()) != 0;
@@ -62,7 +62,7 @@ bool has_side(const std::int16_t* tile, std::size_t length) {
 template <int Side>
 void look_at(const std::int16_t* tile, std::ptrdiff_t i, std::ptrdiff_t first, std::ptrdiff_t last, Row& best) {
   for (std::ptrdiff_t j = first; j < last; ++j) {
-    const Row row = load_side<Side>(tile + static_cast<std::size_t>(j) * kLanes);
+    const Row row = load_side<Side>(tile + static_cast<std::size_t>(j) * kTileLanes);
     const auto square = static_cast<std::int16_t>((j - i) * (j - i));
     for (std::size_t p = 0; p < row.size(); ++p) best[p] = Least()(best[p], row[p] + square);
   }
@@ -72,7 +72,7 @@ void look_at(const std::int16_t* tile, std::ptrdiff_t i, std::ptrdiff_t first, s
 template <int Side>
 std::vector<std::int16_t> group_minima(const std::int16_t* tile, std::size_t length) {
   std::vector<std::int16_t> least(length + kGroup, std::numeric_limits<std::int16_t>::max());
-  for (std::size_t i = 0; i < length; ++i) least[i] = static_cast<std::int16_t>(over_lanes(load_side<Side>(tile + i * kLanes), Least()));
+  for (std::size_t i = 0; i < length; ++i) least[i] = static_cast<std::int16_t>(over_lanes(load_side<Side>(tile + i * kTileLanes), Least()));
   for (std::size_t reach = 1; reach < kGroup; reach *= 2)
     for (std::size_t i = 0; i + reach < least.size(); ++i) least[i] = std::min(least[i], least[i + reach]);
   return least;
@@ -84,7 +84,7 @@ void one_side(const std::int16_t* tile, std::int16_t* out, std::size_t length) {
   const std::vector<std::int16_t> least = group_minima<Side>(tile, length);
   const auto n = static_cast<std::ptrdiff_t>(length), group = static_cast<std::ptrdiff_t>(kGroup);
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    Row best = load_side<Side>(tile + static_cast<std::size_t>(i) * kLanes);
+    Row best = load_side<Side>(tile + static_cast<std::size_t>(i) * kTileLanes);
     int worst = over_lanes(best, Most());
     if (worst == 0) continue;  // No node of this side.
     // Outward until nothing farther can be nearer, past groups that hold nothing near.
@@ -94,14 +94,14 @@ void one_side(const std::int16_t* tile, std::int16_t* out, std::size_t length) {
       if (i >= k && least[static_cast<std::size_t>(below)] + k * k < worst) look_at<Side>(tile, i, below, i - k + 1, best);
       worst = over_lanes(best, Most());
     }
-    add_to(out + static_cast<std::size_t>(i) * kLanes, best, Side);
+    add_to(out + static_cast<std::size_t>(i) * kTileLanes, best, Side);
   }
 }
 
 }  // namespace
 
 void SignedLineMinimum::operator()(const std::int16_t* tile, std::int16_t* out) const {
-  std::fill(out, out + length_ * kLanes, std::int16_t{0});
+  std::fill(out, out + length_ * kTileLanes, std::int16_t{0});
   one_side<1>(tile, out, length_);
   one_side<-1>(tile, out, length_);
 }

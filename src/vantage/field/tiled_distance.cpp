@@ -107,10 +107,10 @@ class Across {
 template <class Value, class Out, class Kernel, class Write>
 void later_pass(const Value* source, Out* target, const std::pair<Shape, Kernel>& axis, const Write& write) {
   const auto& [shape, kernel] = axis;
-  parallel_chunks(shape.stride, kTiles * kLanes, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(shape.stride, kTiles * kTileLanes, [&](std::size_t begin, std::size_t end) {
     Tiles<Value> in(shape, begin, end), out(shape, begin, end);
     in.read(source, shape, begin, end);
-    for (std::size_t at = 0; at < in.size(); at += shape.length * kLanes) kernel(in.data() + at, out.data() + at);
+    for (std::size_t at = 0; at < in.size(); at += shape.length * kTileLanes) kernel(in.data() + at, out.data() + at);
     for_tile_rows(shape, begin, end, [&](std::size_t node, std::size_t lane, std::size_t count) { write(out.data() + lane, target + node, count); });
   });
 }

@@ -176,18 +176,19 @@ template <class Real>
 void check_lines(std::uint64_t seed) {
   Random random(seed);
   const auto length = 1 + static_cast<std::size_t>(random.uniform() * 90);
-  std::vector<Real> tile(length * kLanes), out(tile.size());
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  std::vector<Real> tile(length * kTileLanes), out(tile.size());
+  for (std::size_t lane = 0; lane < kTileLanes; ++lane) {
     const double share = random.uniform() * random.uniform(), largest = std::pow(10.0, random.uniform(0.0, 6.0));
     for (std::size_t i = 0; i < length; ++i)
-      tile[i * kLanes + lane] = lane > 0 && random.uniform() < share ? static_cast<Real>(std::floor(random.uniform() * largest)) : kFarSquare<Real>;
+      tile[i * kTileLanes + lane] =
+          lane > 0 && random.uniform() < share ? static_cast<Real>(std::floor(random.uniform() * largest)) : kFarSquare<Real>;
   }
   LineMinimum<Real>{length}(tile.data(), out.data());
   for (std::size_t k = 0; k < out.size(); ++k) {
     Real least = kFarSquare<Real>;
     for (std::size_t j = 0; j < length; ++j) {
-      const Real step = static_cast<Real>(j) - static_cast<Real>(k / kLanes);
-      least = std::min(least, tile[j * kLanes + k % kLanes] + step * step);
+      const Real step = static_cast<Real>(j) - static_cast<Real>(k / kTileLanes);
+      least = std::min(least, tile[j * kTileLanes + k % kTileLanes] + step * step);
     }
     RC_ASSERT(out[k] == least);
   }

@@ -197,7 +197,11 @@ template <int Dim>
 void RayCaster<Dim>::Impl::build() {
   center = bounds.center();
   slack = std::max(kSlack * bounds.size().norm(), 1e-30);
+#ifdef __SANITIZE_THREAD__
+  device.reset(rtcNewDevice("threads=1"));  // The thread sanitizer does not see how oneTBB's threads, which ask for our facets, wait for each other.
+#else
   device.reset(rtcNewDevice(nullptr));
+#endif
   if (!device) throw_device_error(rtcGetDeviceError(nullptr), "Embree does not start");
   scene.reset(rtcNewScene(device.get()));
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);

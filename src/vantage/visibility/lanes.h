@@ -20,7 +20,7 @@ using Lanes = std::array<T, kLanes>;
 /// Whether functions marked VANTAGE_AVX2 run on this machine.
 [[nodiscard]] inline bool has_avx2() {
 #if VANTAGE_WIDE
-  return static_cast<bool>(__builtin_cpu_supports("avx2"));
+  return __builtin_cpu_supports("avx2");
 #else
   return false;
 #endif

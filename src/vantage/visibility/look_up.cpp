@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vantage/visibility/look_up.h"
 
+#include <array>
+
 #include "vantage/visibility/lanes.h"
 
 namespace vantage {
@@ -19,7 +21,7 @@ VANTAGE_LANES std::int32_t to_pixel(double w, double resolution) {
 
 /// Pixels of nodes whose largest offset is along axis 0; `size` is its magnitude.
 template <int Dim>
-VANTAGE_LANES void pixels_ahead(const LookUp<Dim>& look, const Reals& x, const Reals& size, const double (&d)[Dim], Pixels& pixel) {
+VANTAGE_LANES void pixels_ahead(const LookUp<Dim>& look, const Reals& x, const Reals& size, const std::array<double, Dim>& d, Pixels& pixel) {
   for (int k = 0; k < kLanes; ++k) pixel[k] = x[k] < 0.0 ? 1 : 0;
   for (int j = 1; j < Dim; ++j)
     for (int k = 0; k < kLanes; ++k) pixel[k] = pixel[k] * look.resolution + to_pixel(d[j] / size[k], look.resolution);
@@ -27,7 +29,7 @@ VANTAGE_LANES void pixels_ahead(const LookUp<Dim>& look, const Reals& x, const R
 
 /// Pixels of nodes whose largest offset is along `axis`, not 0.
 template <int Dim>
-VANTAGE_LANES void pixels_aside(const LookUp<Dim>& look, const Reals& x, const double (&d)[Dim], int axis, Pixels& pixel) {
+VANTAGE_LANES void pixels_aside(const LookUp<Dim>& look, const Reals& x, const std::array<double, Dim>& d, int axis, Pixels& pixel) {
   const double size = d[axis] < 0.0 ? -d[axis] : d[axis];
   std::int32_t base = 2 * axis + (d[axis] < 0.0 ? 1 : 0), stride = 1;
   for (int j = 1; j < Dim; ++j) {
@@ -45,7 +47,7 @@ struct Row {
 };
 
 template <int Dim>
-VANTAGE_LANES std::uint8_t row(const LookUp<Dim>& look, const Row& lanes, const double (&d)[Dim]) {
+VANTAGE_LANES std::uint8_t row(const LookUp<Dim>& look, const Row& lanes, const std::array<double, Dim>& d) {
   int axis = 1;
   double most = d[1] < 0.0 ? -d[1] : d[1], square = d[Dim - 1] * d[Dim - 1];
   for (int a = Dim - 2; a >= 1; --a) square = d[a] * d[a] + square;
@@ -89,7 +91,7 @@ VANTAGE_LANES void block(const LookUp<Dim>& look, const std::int32_t* first, std
     lanes.most = lanes.size[k] > lanes.most ? lanes.size[k] : lanes.most;
   }
   for (int r = 0; r < static_cast<int>(SeenSet<Dim>::kNodes) / kLanes; ++r) {
-    double d[Dim] = {};
+    std::array<double, Dim> d{};
     for (int a = 1, rest = r; a < Dim; ++a, rest /= kLanes)
       d[a] = static_cast<double>(first[a] + rest % kLanes) * look.spacing - look.origin.data()[a];
     bits[r] = row<Dim>(look, lanes, d);

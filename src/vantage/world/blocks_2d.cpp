@@ -32,13 +32,13 @@ Scene<2> make_blocks(int columns, int rows, std::uint64_t seed) {
   const Vec<2> size(kLot * columns, kLot * rows), middle = 0.5 * size;
   const Placement<2> city = Placement<2>{middle}.at(Vec<2>::Zero(), 0.06);
   const auto crossing = [&](double i, double j) { return Vec<2>(kPitch * (i - 0.5 * columns), kPitch * (j - 0.5 * rows)); };
-  const Setting<2> setting{.name = "blocks",
-                           .domain = {Vec<2>::Zero(), size},
-                           .start = city(crossing(columns / 2, rows / 2)),
-                           .voxel = 0.5,
-                           .eta = 0.1,
-                           .range = 80.0,
-                           .clearance = 0.5};
+  const SceneSetting<2> setting{.name = "blocks",
+                                .domain = {Vec<2>::Zero(), size},
+                                .start = city(crossing(columns / 2, rows / 2)),
+                                .voxel = 0.5,
+                                .eta = 0.1,
+                                .range = 80.0,
+                                .clearance = 0.5};
   Random random(seed);
   Scenery<2> scenery;
   for (int j = 0; j < rows; ++j)

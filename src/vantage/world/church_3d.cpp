@@ -7,13 +7,13 @@
 namespace vantage {
 
 Scene<3> make_church(std::uint64_t seed) {
-  const Setting<3> setting{.name = "church",
-                           .domain = {Vec<3>(0.0, 0.0, -0.5), Vec<3>(50.0, 50.0, 21.0)},
-                           .start = Vec<3>(4.0, 22.0, 2.0),
-                           .voxel = 0.5,
-                           .eta = 0.08,
-                           .range = 80.0,
-                           .clearance = 0.5};
+  const SceneSetting<3> setting{.name = "church",
+                                .domain = {Vec<3>(0.0, 0.0, -0.5), Vec<3>(50.0, 50.0, 21.0)},
+                                .start = Vec<3>(4.0, 22.0, 2.0),
+                                .voxel = 0.5,
+                                .eta = 0.08,
+                                .range = 80.0,
+                                .clearance = 0.5};
   Random random(seed);
   Scenery<3> scenery;
   add_ground(scenery["ground"], {Vec<2>(-20.0, -20.0), Vec<2>(70.0, 70.0)}, 0.0, 10.0);

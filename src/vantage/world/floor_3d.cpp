@@ -93,13 +93,13 @@ Scene<3> make_floor(int rooms, std::uint64_t seed) {
   Random random(seed);
   const StoreyPlan plan = plan_storey(outer.grown(-kOuterWall), {.rooms = rooms}, random);
   const Vec<2> start = (plan.corridors.empty() ? plan.rooms : plan.corridors)[0].center();
-  const Setting<3> setting{.name = "floor",
-                           .domain = upright(outer, -kSlab, kHeight + kSlab),
-                           .start = Vec<3>(start[0], start[1], 1.5),
-                           .voxel = 0.3,
-                           .eta = 0.05,
-                           .range = 60.0,
-                           .clearance = 0.35};
+  const SceneSetting<3> setting{.name = "floor",
+                                .domain = upright(outer, -kSlab, kHeight + kSlab),
+                                .start = Vec<3>(start[0], start[1], 1.5),
+                                .voxel = 0.3,
+                                .eta = 0.05,
+                                .range = 60.0,
+                                .clearance = 0.35};
   Scenery<3> scenery;
   add_storey(scenery, plan, outer.grown(0.5));
   for (std::size_t i = plan.corridors.empty() ? 1 : 0; i < plan.rooms.size(); ++i) furnish(scenery, plan.rooms[i], plan.doors, random);

@@ -101,13 +101,13 @@ void add_terrain(Scenery<3>& scenery, const Box<2>& area, const Terrain& terrain
 }  // namespace
 
 Scene<3> make_forest(int trees, std::uint64_t seed) {
-  const Setting<3> setting{.name = "forest",
-                           .domain = {Vec<3>(0.0, 0.0, -3.0), Vec<3>(48.0, 36.0, 13.0)},
-                           .start = Vec<3>(4.0, 4.0, 1.5),
-                           .voxel = 0.5,
-                           .eta = 0.1,
-                           .range = 60.0,
-                           .clearance = 0.5};
+  const SceneSetting<3> setting{.name = "forest",
+                                .domain = {Vec<3>(0.0, 0.0, -3.0), Vec<3>(48.0, 36.0, 13.0)},
+                                .start = Vec<3>(4.0, 4.0, 1.5),
+                                .voxel = 0.5,
+                                .eta = 0.1,
+                                .range = 60.0,
+                                .clearance = 0.5};
   Random random(seed);
   const Terrain terrain(random);
   const Box<2> area = Box<2>{setting.domain.low.head<2>(), setting.domain.high.head<2>()}.grown(-0.3);

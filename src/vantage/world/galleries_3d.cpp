@@ -131,13 +131,13 @@ void roughen(Mesh<3>& mesh, Random& random) {
 Scene<3> make_galleries(int columns, int rows, std::uint64_t seed) {
   const Mine mine{columns, rows};
   const Vec<2> size = mine.size(), start = mine.junction(columns / 2, rows / 2);
-  const Setting<3> setting{.name = "galleries",
-                           .domain = {Vec<3>(0.0, 0.0, -0.6), Vec<3>(size[0], size[1], kHeight + 0.6)},
-                           .start = Vec<3>(start[0], start[1], 1.5),
-                           .voxel = 0.4,
-                           .eta = 0.08,
-                           .range = 60.0,
-                           .clearance = 0.4};
+  const SceneSetting<3> setting{.name = "galleries",
+                                .domain = {Vec<3>(0.0, 0.0, -0.6), Vec<3>(size[0], size[1], kHeight + 0.6)},
+                                .start = Vec<3>(start[0], start[1], 1.5),
+                                .voxel = 0.4,
+                                .eta = 0.08,
+                                .range = 60.0,
+                                .clearance = 0.4};
   Random random(seed);
   Blocks<3> rock;
   subdivide(rock, {Vec<3>(-1.0, -1.0, -1.0), Vec<3>(size[0] + 1.0, size[1] + 1.0, kHeight + 1.0)});

@@ -47,13 +47,13 @@ void carve_band(Blocks<2>& office, const Band& band, Random& random) {
 
 Scene<2> make_office(std::uint64_t seed) {
   constexpr double kLength = 40.0, kDepth = 30.0, kCorridor = 2.2;
-  const Setting<2> setting{.name = "office",
-                           .domain = {Vec<2>::Zero(), Vec<2>(kLength, kDepth)},
-                           .start = Vec<2>(3.0, 9.9),
-                           .voxel = 0.25,
-                           .eta = 0.05,
-                           .range = 50.0,
-                           .clearance = 0.35};
+  const SceneSetting<2> setting{.name = "office",
+                                .domain = {Vec<2>::Zero(), Vec<2>(kLength, kDepth)},
+                                .start = Vec<2>(3.0, 9.9),
+                                .voxel = 0.25,
+                                .eta = 0.05,
+                                .range = 50.0,
+                                .clearance = 0.35};
   Random random(seed);
   const double low = 8.8, high = 18.8, right = kLength - kWall;                            // The two long corridors begin here;
   const double cross_1 = random.uniform(9.0, 12.0), cross_2 = random.uniform(26.0, 29.0);  // the two that join them, here.

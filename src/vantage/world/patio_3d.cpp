@@ -41,13 +41,13 @@ void add_low_walls(Scenery<3>& scenery) {
 }  // namespace
 
 Scene<3> make_patio(std::uint64_t seed) {
-  const Setting<3> setting{.name = "patio",
-                           .domain = {Vec<3>(0.0, 0.0, -1.0 / 3.0), Vec<3>(20.0, 20.0, 8.0)},
-                           .start = Vec<3>(9.8, 4.4, 1.6),
-                           .voxel = 1.0 / 3.0,
-                           .eta = 0.04,
-                           .range = 80.0,
-                           .clearance = 0.4};
+  const SceneSetting<3> setting{.name = "patio",
+                                .domain = {Vec<3>(0.0, 0.0, -1.0 / 3.0), Vec<3>(20.0, 20.0, 8.0)},
+                                .start = Vec<3>(9.8, 4.4, 1.6),
+                                .voxel = 1.0 / 3.0,
+                                .eta = 0.04,
+                                .range = 80.0,
+                                .clearance = 0.4};
   Random random(seed);
   Scenery<3> scenery;
   add_ground(scenery["ground"], {Vec<2>(-10.0, -10.0), Vec<2>(30.0, 30.0)}, 0.0, 5.0);

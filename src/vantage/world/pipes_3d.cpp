@@ -60,13 +60,13 @@ std::vector<Pipe> scattered_pipes(const Box<3>& domain, int count, const Vec<3>&
 }  // namespace
 
 Scene<3> make_pipes(int cylinders, bool symmetric, std::uint64_t seed) {
-  const Setting<3> setting{.name = "pipes",
-                           .domain = {Vec<3>(0.0, 0.0, 0.0), Vec<3>(20.0, 20.0, 10.0)},
-                           .start = Vec<3>(2.0, 2.0, 5.0),
-                           .voxel = 1.0 / 3.0,
-                           .eta = 0.05,
-                           .range = 40.0,
-                           .clearance = 0.5};
+  const SceneSetting<3> setting{.name = "pipes",
+                                .domain = {Vec<3>(0.0, 0.0, 0.0), Vec<3>(20.0, 20.0, 10.0)},
+                                .start = Vec<3>(2.0, 2.0, 5.0),
+                                .voxel = 1.0 / 3.0,
+                                .eta = 0.05,
+                                .range = 40.0,
+                                .clearance = 0.5};
   Random random(seed);
   Scenery<3> scenery;
   for (const Pipe& pipe : symmetric ? ring_of_pipes(setting.domain, cylinders) : scattered_pipes(setting.domain, cylinders, setting.start, random))

@@ -25,13 +25,13 @@ std::vector<Vec<2>> blob(const Disc& disc, Random& random) {
 }  // namespace
 
 Scene<2> make_planar(int blobs, std::uint64_t seed) {
-  const Setting<2> setting{.name = "planar",
-                           .domain = {Vec<2>(0.0, 0.0), Vec<2>(20.0, 20.0)},
-                           .start = Vec<2>(2.0, 2.0),
-                           .voxel = 0.2,
-                           .eta = 0.04,
-                           .range = 40.0,
-                           .clearance = 0.4};
+  const SceneSetting<2> setting{.name = "planar",
+                                .domain = {Vec<2>(0.0, 0.0), Vec<2>(20.0, 20.0)},
+                                .start = Vec<2>(2.0, 2.0),
+                                .voxel = 0.2,
+                                .eta = 0.04,
+                                .range = 40.0,
+                                .clearance = 0.4};
   Random random(seed);
   Scenery<2> scenery;
   const std::vector<Disc> discs = scatter_discs(setting.domain.grown(-1.2), blobs, {2.2, 3.4}, 1.2, {setting.start, 0.0}, random);

@@ -11,7 +11,7 @@ namespace vantage {
 /// What a generator says of its scene besides the things in it; as in `Scene`.
 template <int Dim>
   requires SpatialDim<Dim>
-struct Setting {
+struct SceneSetting {
   std::string name;
   Box<Dim> domain;
   Vec<Dim> start;
@@ -30,7 +30,7 @@ class Scenery {
     return kinds_.emplace_back(std::string(kind), Mesh<Dim>{}).mesh;
   }
   /// The scene, with one part a kind in the order in which the kinds first came.
-  [[nodiscard]] Scene<Dim> scene(const Setting<Dim>& setting) const {
+  [[nodiscard]] Scene<Dim> scene(const SceneSetting<Dim>& setting) const {
     Scene<Dim> scene;
     scene.name = setting.name;
     scene.domain = setting.domain;

@@ -39,7 +39,7 @@ Scene<2> make_town2d(int houses, std::uint64_t seed) {
   const Box<2> domain{Vec<2>::Zero(), kLot.cwiseProduct(Vec<2>(columns, rows))};
   const Box<2> shore = domain.grown(-1.0);
   const Vec<2> corner = kLot.cwiseProduct(Vec<2>(columns / 2, rows / 2));  // Where four lots meet.
-  const Setting<2> setting{
+  const SceneSetting<2> setting{
       .name = "town2d", .domain = domain, .start = corner.cwiseMax(shore.low), .voxel = 0.4, .eta = 0.08, .range = 80.0, .clearance = 0.5};
   Random random(seed);
   Scenery<2> scenery;

@@ -116,13 +116,13 @@ void add_yard(Scenery<3>& scenery, const Street& lane, Random& random) {
 }  // namespace
 
 Scene<3> make_town(std::uint64_t seed) {
-  const Setting<3> setting{.name = "town",
-                           .domain = {Vec<3>(0.0, 0.0, -0.5), Vec<3>(200.0, 150.0, 22.0)},
-                           .start = Vec<3>(103.0, 83.0, 2.0),
-                           .voxel = 0.5,
-                           .eta = 0.1,
-                           .range = 80.0,
-                           .clearance = 0.5};
+  const SceneSetting<3> setting{.name = "town",
+                                .domain = {Vec<3>(0.0, 0.0, -0.5), Vec<3>(200.0, 150.0, 22.0)},
+                                .start = Vec<3>(103.0, 83.0, 2.0),
+                                .voxel = 0.5,
+                                .eta = 0.1,
+                                .range = 80.0,
+                                .clearance = 0.5};
   const Vec<2> cross(92.0, 70.0);
   const Street west{Vec<2>(-6.0, 62.0), cross, 7.0}, east{cross, Vec<2>(206.0, 64.0), 7.0};
   const Street north{cross, Vec<2>(86.0, 156.0), 6.5}, south{cross, Vec<2>(100.0, -6.0), 6.5};

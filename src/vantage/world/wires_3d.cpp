@@ -87,13 +87,13 @@ void add_tower(Scenery<3>& scenery, const Vec<2>& foot, double turn, double radi
 }  // namespace
 
 Scene<3> make_wires(int posts, double diameter, std::uint64_t seed) {
-  const Setting<3> setting{.name = "wires",
-                           .domain = {Vec<3>(0.0, 0.0, -0.5), Vec<3>(40.0, 30.0, 12.0)},
-                           .start = Vec<3>(20.0, 4.0, 1.6),
-                           .voxel = 0.5,
-                           .eta = 0.1,
-                           .range = 60.0,
-                           .clearance = 0.4};
+  const SceneSetting<3> setting{.name = "wires",
+                                .domain = {Vec<3>(0.0, 0.0, -0.5), Vec<3>(40.0, 30.0, 12.0)},
+                                .start = Vec<3>(20.0, 4.0, 1.6),
+                                .voxel = 0.5,
+                                .eta = 0.1,
+                                .range = 60.0,
+                                .clearance = 0.4};
   Random random(seed);
   Scenery<3> scenery;
   const auto near = [&](double x, double y) -> Vec<2> { return {x + random.uniform(-0.5, 0.5), y + random.uniform(-0.5, 0.5)}; };
